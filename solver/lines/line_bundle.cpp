@@ -81,7 +81,7 @@ void LineBundle::sort_by_direction() {
 void LineBundle::cast(const RayCaster& caster, const Hierarchy& hierarchy, const SkyGrid& grid) {
   sort_by_direction();
   met_.resize(lines_.size());
-  PacketHits hits[Hierarchy::packets_together];
+  PacketHits hits[packets_together];
   Packet origins{};
   PacketDirections directions{};
   std::span<const std::uint32_t> left = order_;

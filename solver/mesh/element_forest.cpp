@@ -33,8 +33,8 @@ ElementForest::ElementForest(const Scene& scene)
     tree_key_.push_back(mixed(text_key(mesh.object_names[object]), number_in_object[object]++));
     if (!mesh.bears_patches(t)) continue;
     root_[t] = static_cast<std::int32_t>(elements_.size());
-    elements_.push_back({mesh.triangles[t], -1, static_cast<std::int32_t>(t), 1,
-                         apex_of_longest_edge(vertices_, mesh.triangles[t])});
+    add_leaf({mesh.triangles[t], -1, static_cast<std::int32_t>(t), 1,
+              apex_of_longest_edge(vertices_, mesh.triangles[t])});
     patch_count_ += is_two_sided(elements_.size() - 1) ? 2u : 1u;
   }
 }
@@ -54,6 +54,12 @@ std::uint64_t ElementForest::key(std::size_t element) const {
   return mixed(tree_key_[static_cast<std::size_t>(e.triangle)], e.path);
 }
 
+void ElementForest::add_leaf(const Element& element) {
+  SUNLOAD_EXPECT(elements_.size() < most_elements, "numbers of elements fit their splits");
+  splits_.push_back(-1 - static_cast<Split>(elements_.size()));
+  elements_.push_back(element);
+}
+
 std::int32_t ElementForest::midpoint(const Edge& edge) {
   const auto [place, is_new] =
       midpoints_.try_emplace(packed(edge), static_cast<std::int32_t>(vertices_.size()));
@@ -69,9 +75,10 @@ void ElementForest::bisect(std::size_t leaf) {
   const std::int32_t m = midpoint(edge_opposite(parent.vertices, parent.apex));
   const auto children = halves(parent.vertices, parent.apex, m);
   elements_[leaf].first_child = static_cast<std::int32_t>(elements_.size());
+  splits_[leaf] = 4 * elements_[leaf].first_child + parent.apex;
   for (std::uint64_t c = 0; c < 2; ++c)
-    elements_.push_back({children[c], -1, parent.triangle, 2 * parent.path + c,
-                         apex_of_longest_edge(vertices_, children[c])});
+    add_leaf({children[c], -1, parent.triangle, 2 * parent.path + c,
+              apex_of_longest_edge(vertices_, children[c])});
   patch_count_ += is_two_sided(leaf) ? 2u : 1u;
   if (!neighbours_are_linked_) return;
   unlink(static_cast<std::int32_t>(leaf));
@@ -112,14 +119,14 @@ void ElementForest::split_with_neighbours(std::size_t leaf) {
   // A neighbour is split at longer edges until this one is the longest of what is left of it.
   for (bool all_agree = false; !all_agree;) {
     all_agree = true;
-    for (const auto other : leaves_at(edge)) {
+    for (const auto other : leaves_at_edge(edge)) {
       if (!splits_elsewhere(other)) continue;
       split_with_neighbours(static_cast<std::size_t>(other));
       all_agree = false;
       break;
     }
   }
-  for (const auto each : leaves_at(edge)) bisect(static_cast<std::size_t>(each));
+  for (const auto each : leaves_at_edge(edge)) bisect(static_cast<std::size_t>(each));
 }
 
 void ElementForest::link_neighbours() {
@@ -130,35 +137,53 @@ void ElementForest::link_neighbours() {
 
 void ElementForest::link(std::int32_t leaf) {
   for (std::uint8_t k = 0; k < 3; ++k)
-    leaves_at_edge_.emplace(
+    leaves_by_edge_.emplace(
         packed(edge_opposite(elements_[static_cast<std::size_t>(leaf)].vertices, k)), leaf);
 }
 
 void ElementForest::unlink(std::int32_t leaf) {
   for (std::uint8_t k = 0; k < 3; ++k) {
-    auto [at, end] = leaves_at_edge_.equal_range(
+    auto [at, end] = leaves_by_edge_.equal_range(
         packed(edge_opposite(elements_[static_cast<std::size_t>(leaf)].vertices, k)));
     while (at != end && at->second != leaf) ++at;
-    if (at != end) leaves_at_edge_.erase(at);
+    if (at != end) leaves_by_edge_.erase(at);
   }
 }
 
-std::vector<std::int32_t> ElementForest::leaves_at(const Edge& edge) const {
+std::vector<std::int32_t> ElementForest::leaves_at_edge(const Edge& edge) const {
   std::vector<std::int32_t> leaves;
-  const auto [begin, end] = leaves_at_edge_.equal_range(packed(edge));
+  const auto [begin, end] = leaves_by_edge_.equal_range(packed(edge));
   for (auto at = begin; at != end; ++at) leaves.push_back(at->second);
   return leaves;
 }
 
 std::int32_t ElementForest::leaf_at(std::int32_t triangle, double u, double v) const {
-  std::int32_t element = root_[static_cast<std::size_t>(triangle)];
-  if (element < 0) return -1;
-  Weights x{{1 - u - v, u, v}};
-  while (!elements_[static_cast<std::size_t>(element)].is_leaf()) {
-    const Element& e = elements_[static_cast<std::size_t>(element)];
-    element = descend(e.first_child, e.apex, x);
+  const std::int32_t root = root_[static_cast<std::size_t>(triangle)];
+  if (root < 0) return -1;
+  PointColumns<1> point;
+  point.put(0, splits_[static_cast<std::size_t>(root)], u, v);
+  descend(splits_.data(), point);
+  return -1 - point.split[0];
+}
+
+void ElementForest::leaves_at(std::span<const PacketHits> hits, std::int32_t* leaf) const {
+  SUNLOAD_EXPECT(hits.size() <= packets_together, "packets fit side by side");
+  PointsTogether points;
+  const std::size_t count = hits.size() * packet_size;
+  for (std::size_t place = 0; place < packets_together * packet_size; ++place) {
+    points.put_nothing(place);
+    if (place >= count) continue;
+    const PacketHits& of = hits[place / packet_size];
+    const std::size_t l = place % packet_size;
+    const auto root = of.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(of.triangle[l])];
+    leaf[place] = root;
+    if (root >= 0)
+      points.put(place, splits_[static_cast<std::size_t>(root)], static_cast<double>(of.u[l]),
+                 static_cast<double>(of.v[l]));
   }
-  return element;
+  descend(splits_.data(), points);
+  for (std::size_t place = 0; place < count; ++place)
+    if (leaf[place] >= 0) leaf[place] = -1 - points.split[place];
 }
 
 }  // namespace sunload

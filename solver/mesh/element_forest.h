@@ -12,10 +12,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "solver/mesh/bisection.h"
+#include "solver/mesh/descent.h"
 #include "solver/surface/material.h"
 
 namespace sunload {
@@ -63,8 +65,13 @@ class ElementForest {
   std::uint64_t key(std::size_t element) const;
   /// Patches that the leaves make: twins of two-sided ones count twice.
   std::size_t patch_count() const { return patch_count_; }
+  /// How each element is split; of leaves by their own numbers.
+  const std::vector<Split>& splits() const { return splits_; }
   /// Leaf that holds a point of an input triangle (weights of corners 1 and 2), or -1.
   std::int32_t leaf_at(std::int32_t triangle, double u, double v) const;
+  /// The same where the rays of up to `packets_together` have met triangles, whichever side; -1 for
+  /// those that have met none. `leaf`: of one packet after the other.
+  void leaves_at(std::span<const PacketHits> hits, std::int32_t* leaf) const;
 
  private:
   std::int32_t midpoint(const Edge& edge);
@@ -74,30 +81,20 @@ class ElementForest {
   void link_neighbours();
   void link(std::int32_t leaf);
   void unlink(std::int32_t leaf);
-  std::vector<std::int32_t> leaves_at(const Edge& edge) const;
+  std::vector<std::int32_t> leaves_at_edge(const Edge& edge) const;
 
   const Scene& scene_;
+  void add_leaf(const Element& element);
+
   std::vector<Element> elements_;
+  std::vector<Split> splits_;
   std::vector<Vec3> vertices_;
   std::vector<std::int32_t> root_;
   std::vector<std::uint64_t> tree_key_;  ///< per triangle
   std::size_t patch_count_ = 0;
   std::unordered_map<std::uint64_t, std::int32_t> midpoints_;
   bool neighbours_are_linked_ = false;
-  std::unordered_multimap<std::uint64_t, std::int32_t> leaves_at_edge_;
+  std::unordered_multimap<std::uint64_t, std::int32_t> leaves_by_edge_;
 };
-
-/// Barycentric weights of the corners 0, 1, 2 of an element.
-struct Weights {
-  double w[3];
-};
-/// Child that holds a point of its parent, and the point's weights there.
-inline std::int32_t descend(std::int32_t first_child, std::uint8_t apex, Weights& x) {
-  const double p = x.w[(apex + 1) % 3], q = x.w[(apex + 2) % 3], r = x.w[apex];
-  // Child 0 is (p, m, r), child 1 is (m, q, r), m the midpoint of pq.
-  const bool second = q > p;
-  x = second ? Weights{{2 * p, q - p, r}} : Weights{{p - q, 2 * q, r}};
-  return first_child + (second ? 1 : 0);
-}
 
 }  // namespace sunload

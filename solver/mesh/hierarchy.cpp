@@ -8,14 +8,11 @@
 
 #include "geo/base/check.h"
 #include "geo/base/keys.h"
-#include "geo/base/vector_code.h"
 #include "solver/base/rng.h"
 
 namespace sunload {
 
 namespace {
-
-constexpr std::size_t most_elements = std::size_t{1} << 29;
 
 /// Trees split by edge length, refused before they are built where they would be too many.
 ElementForest split_evenly(const Scene& scene, const SplitRules& rules) {
@@ -51,11 +48,9 @@ void expect_splittable(const Scene& scene, const SplitRules& rules) {
 Hierarchy::Hierarchy(const Scene& scene, const SplitRules& rules)
     : Hierarchy(split_evenly(scene, rules)) {}
 
-Hierarchy::Hierarchy(const ElementForest& forest) : vertices_(forest.vertices()) {
+Hierarchy::Hierarchy(const ElementForest& forest)
+    : split_(forest.splits()), vertices_(forest.vertices()) {
   const Mesh& mesh = forest.scene().mesh;
-  SUNLOAD_EXPECT(forest.elements().size() <= most_elements, "numbers of elements fit their splits");
-  split_.reserve(forest.elements().size());
-  for (const auto& e : forest.elements()) split_.push_back(4 * e.first_child + e.apex);
   patches_.reserve(forest.patch_count());
   area_.reserve(forest.patch_count());
   key_.reserve(forest.patch_count());
@@ -118,74 +113,12 @@ Vec3 Hierarchy::centroid(std::size_t patch) const {
   return (corner(patch, 0) + corner(patch, 1) + corner(patch, 2)) / 3;
 }
 
-namespace {
-
-/// Points of elements on their way down, side by side: each by the element's split and the weights
-/// of its corners, in units that halves divide without rounding.
-template <std::size_t lanes>
-struct PointColumns {
-  static constexpr double unit = 1 << 30;
-  alignas(64) std::int32_t split[lanes], w0[lanes], w1[lanes], w2[lanes];
-
-  void put(std::size_t place, std::int32_t root, double u, double v) {
-    // What rounding puts beyond an edge lies on it.
-    const auto whole = [](double w) { return static_cast<std::int32_t>(std::max(0.0, w) * unit); };
-    split[place] = root;
-    w1[place] = whole(u);
-    w2[place] = whole(v);
-    w0[place] = std::max(0, static_cast<std::int32_t>(unit) - w1[place] - w2[place]);
-  }
-  void put_nothing(std::size_t place) {
-    constexpr std::int32_t in_a_leaf = -1;
-    put(place, in_a_leaf, 0, 0);
-  }
-};
-
-/// To the halves that hold them (`descend`), until all are in leaves; without branches, which would
-/// be guessed wrong half of the time. In the shape that compilers turn into vector code.
-template <std::size_t lanes>
-[[gnu::always_inline]] inline void descend(const std::int32_t* __restrict splits,
-                                           PointColumns<lanes>& __restrict points) {
-  alignas(64) std::uint32_t child[lanes];
-  for (std::uint32_t leaves = 0; leaves < lanes;) {
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const std::int32_t split = points.split[l], apex = split & 3;
-      const std::int32_t a = points.w0[l], b = points.w1[l], c = points.w2[l];
-      const std::int32_t p = apex == 0 ? b : apex == 1 ? c : a;
-      const std::int32_t q = apex == 0 ? c : apex == 1 ? a : b;
-      const std::int32_t r = apex == 0 ? a : apex == 1 ? b : c;
-      const std::int32_t larger = p > q ? p : q, smaller = p > q ? q : p;
-      const std::int32_t rest = larger - smaller, twice = smaller + smaller;
-      points.w0[l] = q > p ? twice : rest;
-      points.w1[l] = q > p ? rest : twice;
-      points.w2[l] = r;
-      const std::int32_t second = q > p ? 1 : 0, inner = (split >> 2) + second;
-      child[l] = static_cast<std::uint32_t>(split < 0 ? 0 : inner);
-    }
-    leaves = 0;
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const std::int32_t half = splits[child[l]];
-      points.split[l] = points.split[l] < 0 ? points.split[l] : half;
-    }
-    for (std::size_t l = 0; l < lanes; ++l) leaves += points.split[l] < 0 ? 1u : 0u;
-  }
-}
-
-using PointsTogether = PointColumns<Hierarchy::packets_together * packet_size>;
-
-SUNLOAD_VECTOR_CODE void descend_all(const std::int32_t* __restrict splits,
-                                     PointsTogether& __restrict points) {
-  descend(splits, points);
-}
-
-}  // namespace
-
 std::int32_t Hierarchy::patch_at(std::int32_t triangle, double u, double v, bool front) const {
   const auto root = root_[static_cast<std::size_t>(triangle)];
   if (root < 0 || (!front && root % 2 == 0)) return -1;
   PointColumns<1> point;
   point.put(0, split_[static_cast<std::size_t>(root / 2)], u, v);
-  if (point.split[0] >= 0) descend(split_.data(), point);
+  descend(split_.data(), point);
   return -1 - point.split[0] + (front ? 0 : 1);
 }
 
@@ -209,7 +142,7 @@ void Hierarchy::patches_at(std::span<const PacketHits> hits, std::int32_t* patch
     else
       points.put_nothing(place);  // u and v are anything
   }
-  descend_all(split_.data(), points);
+  descend(split_.data(), points);
   for (std::size_t place = 0; place < count; ++place)
     if (patch[place] >= 0) patch[place] += -1 - points.split[place];
 }

@@ -64,11 +64,8 @@ class Hierarchy {
   /// Patch at the barycentric weights (u, v of corners 1 and 2) of an input
   /// triangle, or -1 where that side has none.
   std::int32_t patch_at(std::int32_t triangle, double u, double v, bool front) const;
-  /// Packets whose points are looked for together: steps wait for each other's loads, and what the
-  /// processor does meanwhile are the other packets.
-  static constexpr std::size_t packets_together = 2;
-  /// The same where the rays of up to so many packets have met triangles, side by side; -1 for
-  /// those that have met none. `patch`: of one packet after the other.
+  /// The same where the rays of up to `packets_together` have met triangles; -1 for those that have
+  /// met none. `patch`: of one packet after the other.
   void patches_at(std::span<const PacketHits> hits, std::int32_t* patch) const;
 
   /// Elements are numbered patches first, then inner ones, children before parents and tree by
@@ -89,10 +86,6 @@ class Hierarchy {
   const Sphere& sphere(std::size_t i) const { return sphere_[i]; }
 
  private:
-  /// How an element is split, small enough for many of them to stay near the processor: of inner
-  /// ones 4 · first child (its sibling follows) + the corner opposite of the split edge; of leaves
-  /// -1 - their first patch.
-  using Split = std::int32_t;
   /// Numbers of an element's two sides; -1 where it has but one.
   using Sides2 = std::array<std::int32_t, 2>;
   Sides2 add_tree(const ElementForest& forest, std::size_t element);
@@ -100,7 +93,7 @@ class Hierarchy {
   std::int32_t add_inner(const ElementForest& forest, std::size_t element, std::int32_t half,
                          std::int32_t other_half);
 
-  std::vector<Split> split_;        ///< per element of the forest
+  std::vector<Split> split_;        ///< per element of the forest; of leaves by their first patch
   std::vector<std::int32_t> root_;  ///< per input triangle: 2 · its element, + 1 where it has two
                                     ///< sides; -1: no patches
   std::vector<Vec3> front_;         ///< normal of each input triangle

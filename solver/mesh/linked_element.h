@@ -16,7 +16,7 @@ std::uint32_t linked_element(const Hierarchy& hierarchy, std::size_t patch, Vec3
 
 /// Where rays have met patches, those of some packets side by side.
 struct LinkedPoints {
-  static constexpr std::size_t most = Hierarchy::packets_together * packet_size;
+  static constexpr std::size_t most = packets_together * packet_size;
   std::int32_t patch[most];  ///< -1: none
   alignas(64) double x[most], y[most], z[most];
   alignas(64) double path_m[most], largest_link[most];

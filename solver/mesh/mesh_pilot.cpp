@@ -217,15 +217,25 @@ void MeshPilot::add_surroundings(const Points& points, std::size_t packet, std::
                                  double* sum) const {
   const RandomWords& seeds = points.direction_seeds[half];
   constexpr double share = 1.0 / directions_per_half;
-  for (std::uint32_t d = 0; d < directions_per_half; ++d) {
-    const Vec3 local = sample_cosine(scrambled_sobol(d, 0, seeds), scrambled_sobol(d, 1, seeds));
-    const Vec3 w =
-        points.axes.tangent * local.x + points.axes.bitangent * local.y + points.normal * local.z;
-    const double beyond =
-        w.z > 0 ? light_.sky[static_cast<std::size_t>(grid_.cell(w))] : light_.ground;
-    const PacketHits hits = caster_.first_hits(points.packets[packet], w, all_rays);
-    for (std::size_t r = 0; r < packet_size; ++r)
-      sum[r] += share * (hits.triangle[r] < 0 ? beyond : radiosity(hits, r));
+  static_assert(directions_per_half % packets_together == 0);
+  for (std::uint32_t first = 0; first < directions_per_half; first += packets_together) {
+    double beyond[packets_together];
+    PacketHits hits[packets_together];
+    for (std::uint32_t i = 0; i < packets_together; ++i) {
+      const std::uint32_t d = first + i;
+      const Vec3 local = sample_cosine(scrambled_sobol(d, 0, seeds), scrambled_sobol(d, 1, seeds));
+      const Vec3 w =
+          points.axes.tangent * local.x + points.axes.bitangent * local.y + points.normal * local.z;
+      beyond[i] = w.z > 0 ? light_.sky[static_cast<std::size_t>(grid_.cell(w))] : light_.ground;
+      hits[i] = caster_.first_hits(points.packets[packet], w, all_rays);
+    }
+    std::int32_t leaves[packets_together * packet_size];
+    forest_.leaves_at(hits, leaves);
+    for (std::size_t i = 0; i < packets_together; ++i)
+      for (std::size_t r = 0; r < packet_size; ++r)
+        sum[r] += share * (hits[i].triangle[r] < 0
+                               ? beyond[i]
+                               : radiosity(leaves[i * packet_size + r], hits[i].front[r]));
   }
 }
 
@@ -355,14 +365,11 @@ void MeshPilot::add_luminaires(const Points& points,
   }
 }
 
-double MeshPilot::radiosity(const PacketHits& hits, std::size_t ray) const {
-  const std::int32_t triangle = hits.triangle[ray];
-  const std::int32_t leaf =
-      forest_.leaf_at(triangle, static_cast<double>(hits.u[ray]), static_cast<double>(hits.v[ray]));
+double MeshPilot::radiosity(std::int32_t leaf, bool front) const {
   if (leaf < 0) return 0;
   const auto element = static_cast<std::size_t>(leaf);
-  if (!hits.front[ray] && !forest_.is_two_sided(element)) return 0;
-  return typical_reflectance * static_cast<double>(load_[2 * element + (hits.front[ray] ? 0 : 1)]);
+  if (!front && !forest_.is_two_sided(element)) return 0;
+  return typical_reflectance * static_cast<double>(load_[2 * element + (front ? 0 : 1)]);
 }
 
 }  // namespace sunload

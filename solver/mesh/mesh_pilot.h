@@ -80,7 +80,8 @@ class MeshPilot {
                       std::size_t packet, double* sum) const;
   void add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
                         double* sum) const;
-  double radiosity(const PacketHits& hits, std::size_t ray) const;
+  /// Of the side that a ray has met.
+  double radiosity(std::int32_t leaf, bool front) const;
 
   const ElementForest& forest_;
   const Scene& scene_;
