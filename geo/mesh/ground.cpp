@@ -12,6 +12,7 @@
 #include "geo/base/unused_name.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/land.h"
+#include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -32,40 +33,6 @@ MaterialId ground_material(std::vector<FileMaterial>& materials) {
   }
   return make_id<MaterialId>(index);
 }
-
-/// Triangles of a mesh to be asked by points in plan.
-class PlanTriangles {
- public:
-  PlanTriangles(const Mesh& mesh, std::vector<std::size_t> triangles)
-      : mesh_(mesh), triangles_(std::move(triangles)) {
-    std::vector<Box> boxes;
-    for (const auto t : triangles_)
-      boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
-    tree_ = BoxTree(std::move(boxes));
-  }
-  template <class Visit>
-  void visit_heights(double x, double y, const Visit& visit) const {
-    tree_.visit_column(x, y, [&](std::size_t i) {
-      const std::size_t t = triangles_[i];
-      if (const auto z = height_at(mesh_, t, x, y)) visit(*z);
-    });
-  }
-  bool is_on(Vec3 p, double distance) const {
-    bool is_near = false;
-    visit_heights(p.x, p.y, [&](double z) { is_near |= std::abs(z - p.z) <= distance; });
-    return is_near;
-  }
-  bool covers(Vec3 p) const {
-    bool is_covered = false;
-    visit_heights(p.x, p.y, [&](double) { is_covered = true; });
-    return is_covered;
-  }
-
- private:
-  const Mesh& mesh_;
-  std::vector<std::size_t> triangles_;
-  BoxTree tree_;
-};
 
 double lowest(const std::vector<Foot>& feet) {
   double low = infinity;
@@ -100,7 +67,7 @@ class GroundMaker {
         feet_(feet),
         rules_(rules),
         level_z_(level_z(mesh, feet, rules)),
-        terrain_(terrain_of(mesh)),
+        terrain_(land_triangles(mesh)),
         first_made_(mesh.triangle_count()) {}
 
   GroundMade run() {
@@ -121,14 +88,6 @@ class GroundMaker {
   }
 
  private:
-  static std::vector<std::size_t> terrain_of(const Mesh& mesh) {
-    std::vector<std::size_t> terrain;
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      if (mesh.triangle_surface[t] == Surface::ground && mesh.area_vector2(t).z > 0)
-        terrain.push_back(t);
-    return terrain;
-  }
-
   void set_rectangle() {
     const Box box = bounding_box(mesh_.vertices);
     const double margin = rules_.margin_m;
@@ -431,7 +390,7 @@ class GroundMaker {
         // Land and feet are the same within the snap: a wall on the rim of the ground is on it.
         for (const Vec3 off : {Vec3{}, Vec3{land_snap_m, 0, 0}, Vec3{-land_snap_m, 0, 0},
                                Vec3{0, land_snap_m, 0}, Vec3{0, -land_snap_m, 0}})
-          ground.visit_heights(p.x + off.x, p.y + off.y, [&](double z) {
+          ground.visit_heights(p.x + off.x, p.y + off.y, [&](std::size_t, double z) {
             if (std::abs(p.z - z) < std::abs(gap)) gap = p.z - z;
           });
         if (std::isfinite(gap) && std::abs(gap) > std::abs(largest)) largest = gap;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "geo/mesh/box_tree.h"
+#include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -31,17 +31,12 @@ bool holds_in_plan(const Box& outer, const Box& inner) {
 /// Open sheets that look up.
 class Sheets {
  public:
-  Sheets(const Mesh& mesh, const Bodies& bodies) : mesh_(mesh), bodies_(bodies) {
-    std::vector<Box> boxes;
+  Sheets(const Mesh& mesh, const Bodies& bodies)
+      : mesh_(mesh), bodies_(bodies), upward_(mesh, upward_sheets()) {
     has_walls_.assign(bodies.bodies.size(), 0);
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
       if (const auto b = bodies.triangle_body[t]; b >= 0 && slope_of(mesh, t) == Slope::upright)
         has_walls_[static_cast<std::size_t>(b)] = 1;
-      if (!is_sheet(t)) continue;
-      upward_.push_back(t);
-      boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
-    }
-    tree_ = BoxTree(std::move(boxes));
   }
   bool any() const { return !upward_.empty(); }
 
@@ -52,13 +47,11 @@ class Sheets {
   /// The lowest one that `p` of a body lies below, and that the body stands out of.
   Above above(Vec3 p, const Body& body) {
     Above lowest{ObjectId::none(), body.box.high.z - sunk_m};
-    tree_.visit_column(p.x, p.y, [&](std::size_t i) {
-      const std::size_t t = upward_[i];
-      const auto z = height_at(mesh_, t, p.x, p.y);
-      if (!z || *z < p.z + sunk_m || *z > lowest.z) return;
+    upward_.visit_heights(p.x, p.y, [&](std::size_t t, double z) {
+      if (z < p.z + sunk_m || z > lowest.z) return;
       const auto of = static_cast<std::size_t>(bodies_.triangle_body[t]);
       if (holds_in_plan(bodies_.bodies[of].box, body.box) && !is_roof(of))
-        lowest = {mesh_.triangle_object[t], *z};
+        lowest = {mesh_.triangle_object[t], z};
     });
     return lowest;
   }
@@ -82,12 +75,16 @@ class Sheets {
   double height_over(std::size_t sheet, const Body& body) const {
     const Vec3 middle = centre_of(body.box);
     double height = body.box.low.z;
-    tree_.visit_column(middle.x, middle.y, [&](std::size_t i) {
-      const std::size_t t = upward_[i];
-      if (static_cast<std::size_t>(bodies_.triangle_body[t]) != sheet) return;
-      if (const auto z = height_at(mesh_, t, middle.x, middle.y)) height = std::max(height, *z);
+    upward_.visit_heights(middle.x, middle.y, [&](std::size_t t, double z) {
+      if (static_cast<std::size_t>(bodies_.triangle_body[t]) == sheet) height = std::max(height, z);
     });
     return height;
+  }
+  std::vector<std::size_t> upward_sheets() const {
+    std::vector<std::size_t> upward;
+    for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
+      if (is_sheet(t)) upward.push_back(t);
+    return upward;
   }
   bool is_sheet(std::size_t t) const {
     const auto b = bodies_.triangle_body[t];
@@ -98,10 +95,9 @@ class Sheets {
 
   const Mesh& mesh_;
   const Bodies& bodies_;
-  std::vector<std::size_t> upward_;
+  PlanTriangles upward_;
   std::vector<std::uint8_t> has_walls_;  ///< per body
   std::map<std::size_t, bool> is_roof_;  ///< of sheets that were asked for
-  BoxTree tree_;
 };
 
 /// The area of what of a triangle lies below a height.

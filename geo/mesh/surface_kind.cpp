@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geo/mesh/box_tree.h"
+#include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -26,33 +26,28 @@ struct Heights {
 /// Upward triangles of all bodies and sheets, to be asked what is below a point.
 class Supports {
  public:
-  explicit Supports(const Mesh& mesh, const Bodies& bodies) : mesh_(mesh), bodies_(bodies) {
-    std::vector<Box> boxes;
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-      if (slope_of(mesh, t) != Slope::upward) continue;
-      upward_.push_back(t);
-      boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
-    }
-    tree_ = BoxTree(std::move(boxes));
-  }
+  Supports(const Mesh& mesh, const Bodies& bodies)
+      : bodies_(bodies), upward_(mesh, upward_triangles(mesh)) {}
 
   /// The highest of other bodies at (x, y) that is lower than `top`; -infinity where there is none.
   double below(std::int32_t body, double x, double y, double top) const {
     double highest = -std::numeric_limits<double>::infinity();
-    tree_.visit_column(x, y, [&](std::size_t i) {
-      const std::size_t t = upward_[i];
-      if (bodies_.triangle_body[t] == body) return;
-      const auto z = height_at(mesh_, t, x, y);
-      if (z && *z < top) highest = std::max(highest, *z);
+    upward_.visit_heights(x, y, [&](std::size_t t, double z) {
+      if (bodies_.triangle_body[t] != body && z < top) highest = std::max(highest, z);
     });
     return highest;
   }
 
  private:
-  const Mesh& mesh_;
+  static std::vector<std::size_t> upward_triangles(const Mesh& mesh) {
+    std::vector<std::size_t> upward;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+      if (slope_of(mesh, t) == Slope::upward) upward.push_back(t);
+    return upward;
+  }
+
   const Bodies& bodies_;
-  std::vector<std::size_t> upward_;
-  BoxTree tree_;
+  PlanTriangles upward_;
 };
 
 class Decision {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "geo/mesh/box_tree.h"
+#include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
 #include "io/study/material_table.h"
 
@@ -182,14 +182,7 @@ std::vector<std::size_t> tops_of_covered(const Mesh& mesh) {
 std::string buried_warning(const Study& study, const Mesh& mesh) {
   constexpr double deep_m = 0.3;  // less lies under a terrain that is drawn to decimetres
   constexpr std::size_t most_named = 5;
-  std::vector<std::size_t> land;
-  std::vector<Box> boxes;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.triangle_surface[t] == Surface::ground && mesh.area_vector2(t).z > 0) {
-      land.push_back(t);
-      boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
-    }
-  const BoxTree tree(std::move(boxes));
+  const PlanTriangles land(mesh, land_triangles(mesh));
   const std::vector<std::size_t> tops = tops_of_covered(mesh);
   std::string names;
   std::size_t count = 0;
@@ -197,10 +190,8 @@ std::string buried_warning(const Study& study, const Mesh& mesh) {
     if (tops[o] == no_triangle) continue;
     const Vec3 top = centre_of_triangle(mesh, tops[o]);
     double deepest = 0;
-    tree.visit_column(top.x, top.y, [&](std::size_t i) {
-      if (const auto z = height_at(mesh, land[i], top.x, top.y))
-        deepest = std::max(deepest, *z - top.z);
-    });
+    land.visit_heights(top.x, top.y,
+                       [&](std::size_t, double z) { deepest = std::max(deepest, z - top.z); });
     if (deepest < deep_m) continue;
     if (count++ < most_named)
       names +=
