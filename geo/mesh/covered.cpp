@@ -14,8 +14,8 @@ namespace sunload {
 
 CoveredCut cut_covered(Mesh& mesh, Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
                        const std::vector<std::uint8_t>& seals,
-                       const std::vector<std::uint8_t>& emits) {
-  const Covers covers(mesh, bodies, is_opaque, seals, emits);
+                       const std::vector<std::uint8_t>& emits, Cavities cavities) {
+  const Covers covers(mesh, bodies, is_opaque, seals, emits, cavities);
   std::vector<std::pair<std::size_t, CoveredParts>> found;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!mesh.bears_patches(t) || !slope_of(mesh, t)) continue;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geo/mesh/covers.h"
 #include "geo/mesh/mesh.h"
 #include "geo/mesh/orient.h"
 #include "geo/mesh/overlap.h"
@@ -29,14 +30,15 @@ struct CoveredCut {
 /// along the line where that begins, in their place in the order. Facades lose what is covered of
 /// them, and go where nothing is left; the names of the others stay.
 ///
-/// Covered is what has its front inside of a closed body, against the front of another surface,
-/// hidden by one that faces the same way at twice that distance, or below land (open surfaces of
-/// kind ground but roads and railways, which may be bridges; of land also where another body of a
-/// type of land lies above it, and roads within half a metre). Surfaces
-/// for which `is_opaque` is 0 cover nothing, nor do bodies that have some. Two-sided surfaces are
-/// covered inside of bodies and below land only. Land is covered below floors that are closed
-/// at their rim, and above such a floor where more of its object is above the land: `seals` are
-/// these floors and the walls at their rim (geo/mesh/ground).
+/// Covered is what has its front inside of a closed body, or in a hollow of one where these are
+/// dark, against the front of another surface (also of solids that are one body since they share an
+/// edge), hidden by one that faces the same way at twice that distance, or below land (open
+/// surfaces of kind ground but roads and railways, which may be bridges; of land also where another
+/// body of a type of land lies above it, and roads within half a metre). Surfaces for which
+/// `is_opaque` is 0 cover nothing, nor do bodies that have some. Two-sided surfaces are covered
+/// inside of bodies and below land only. Land is covered below floors that are closed at their rim,
+/// and above such a floor where more of its object is above the land: `seals` are these floors and
+/// the walls at their rim (geo/mesh/ground).
 ///
 /// Left out is what lies in the place of another opaque surface and faces where that does: the
 /// first of them stays, but before others what `emits` (empty: nothing), then windows, also before
@@ -47,6 +49,7 @@ struct CoveredCut {
 /// triangles overlap.
 CoveredCut cut_covered(Mesh& mesh, Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
                        const std::vector<std::uint8_t>& seals = {},
-                       const std::vector<std::uint8_t>& emits = {});
+                       const std::vector<std::uint8_t>& emits = {},
+                       Cavities cavities = Cavities::lit);
 
 }  // namespace sunload

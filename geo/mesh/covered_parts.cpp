@@ -74,14 +74,14 @@ class Cutter {
   std::optional<CoveredParts> run() {
     find_lines();
     if (lines_.empty()) return CoveredParts{state_in_the_middle(), {}, first_taker_};
-    if (lines_.size() > most_lines || !divide(lines_)) return {};
+    if (lines_.size() > most_lines || !divide(lines_, [this](Point2 p) { return state_at(p); }))
+      return {};
     const auto [covered, taken] = areas2();
     if (covered + taken <= least_share * area2_) return CoveredParts{};
     for (const auto& [area2, state] :
          {std::pair{covered, CoverState::covered}, {taken, CoverState::taken}})
       if (area2 >= (1 - least_share) * area2_) return CoveredParts{state, {}, first_taker_};
-    // Once more along the lines only where that begins.
-    divide(borders_of_states());
+    divide_at_borders();
     return CoveredParts{CoverState::open, parts(), first_taker_};
   }
 
@@ -97,14 +97,19 @@ class Cutter {
     std::vector<std::size_t> up_to;
     std::vector<Touching> touching;
     covers_.visit_near(t_, piece_.corners, [&](std::size_t u) {
+      const auto add = [&](std::vector<Polygon>& list, const std::optional<Overlap>& overlap) {
+        if (overlap) touching.push_back({covers_.body(u), begin(*overlap, list)});
+        return overlap.has_value();
+      };
       if (covers_.is_taken(t_, u)) {
-        if (!add_overlap(u, taken_)) return;
-        first_taker_ = std::min(first_taker_.value_or(u), u);
-        touching.push_back({covers_.body(u), taken_.back()});
+        if (add(taken_, overlap_with(u))) first_taker_ = std::min(first_taker_.value_or(u), u);
       } else if (covers_.are_of_one_body(t_, u)) {
-        return;
+        if (!covers_.is_against(t_, u)) return;
+        const auto overlap = overlap_with(u);
+        if (overlap && covers_.is_solid_behind(t_, plane_.lifted(middle(overlap->shared))))
+          add(against_, overlap);
       } else if (covers_.is_against(t_, u) || covers_.is_behind(t_, u)) {
-        if (add_overlap(u, against_)) touching.push_back({covers_.body(u), against_.back()});
+        add(against_, overlap_with(u));
       } else if (const Meets meets = covers_.ending(t_, u); meets == Meets::through) {
         if (const auto line = cut_by(u, 0)) lines_.push_back(*line);
       } else if (meets == Meets::up_to) {
@@ -142,24 +147,31 @@ class Cutter {
            });
   }
 
-  /// Where `u`, which goes to `list`, begins on this one; false where they have next to nothing in
-  /// common.
-  bool add_overlap(std::size_t u, std::vector<Polygon>& list) {
-    Polygon other;
-    for (const Vec3 p : covers_.corners(u)) other.push_back(plane_.seen(p));
-    if (twice_area(other) < 0) std::reverse(other.begin(), other.end());
-    Polygon overlap = other;
+  struct Overlap {
+    Polygon triangle;  ///< all of the other
+    Polygon shared;    ///< what of it lies on the piece
+  };
+  /// Nothing where they have next to nothing in common.
+  std::optional<Overlap> overlap_with(std::size_t u) const {
+    Overlap overlap;
+    for (const Vec3 p : covers_.corners(u)) overlap.triangle.push_back(plane_.seen(p));
+    if (twice_area(overlap.triangle) < 0) std::ranges::reverse(overlap.triangle);
+    overlap.shared = overlap.triangle;
     for (std::size_t k = 0; k < 3; ++k)
-      overlap =
-          clipped(overlap, [&](Point2 p) { return turn(outline_[k], outline_[(k + 1) % 3], p); });
-    const double overlap2 = twice_area(overlap);
-    if (overlap2 <= least_share * area2_) return false;
+      overlap.shared = clipped(
+          overlap.shared, [&](Point2 p) { return turn(outline_[k], outline_[(k + 1) % 3], p); });
+    if (twice_area(overlap.shared) <= least_share * area2_) return {};
+    return overlap;
+  }
+  /// Adds to `list` what begins on the piece, and the lines where it does; the triangle.
+  Polygon begin(const Overlap& overlap, std::vector<Polygon>& list) {
+    const Polygon& shared = overlap.shared;
     // What is all of the piece begins nowhere on it.
-    if (overlap2 < (1 - least_share) * area2_)
-      for (std::size_t i = 0; i < overlap.size(); ++i)
-        lines_.push_back({overlap[i], overlap[(i + 1) % overlap.size()]});
-    list.push_back(std::move(other));
-    return true;
+    if (twice_area(shared) < (1 - least_share) * area2_)
+      for (std::size_t i = 0; i < shared.size(); ++i)
+        lines_.push_back({shared[i], shared[(i + 1) % shared.size()]});
+    list.push_back(overlap.triangle);
+    return overlap.triangle;
   }
 
   /// Where the triangle `u` goes through this one, or through the plane so far before it.
@@ -206,6 +218,12 @@ class Cutter {
     return Line2{at(from), at(to)};
   }
 
+  static Point2 middle(const Polygon& polygon) {
+    Point2 sum{};
+    for (const Point2 p : polygon) sum = {sum.u + p.u, sum.v + p.v};
+    const auto count = static_cast<double>(polygon.size());
+    return {sum.u / count, sum.v / count};
+  }
   static Point2 middle(Point2 a, Point2 b) { return {(a.u + b.u) / 2, (a.v + b.v) / 2}; }
   static Point2 middle(Point2 a, Point2 b, Point2 c) {
     return {(a.u + b.u + c.u) / 3, (a.v + b.v + c.v) / 3};
@@ -228,8 +246,22 @@ class Cutter {
     return is_covered ? CoverState::covered : CoverState::open;
   }
 
-  /// Along the lines, and tells each part's state; false where the lines cross too often.
-  bool divide(const std::vector<Line2>& lines) {
+  /// Once more along the lines only where another state begins. States are carried over: the middle
+  /// of a part may lie on the line between two things that cover it.
+  void divide_at_borders() {
+    const std::vector<Line2> borders = borders_of_states();
+    CoverDelaunay by_all_lines;
+    by_all_lines.swap(delaunay_);
+    divide(borders, [&](Point2 p) {
+      const auto face = by_all_lines.locate({p.u, p.v});
+      return face == nullptr || by_all_lines.is_infinite(face) ? CoverState::open
+                                                               : face->info().state;
+    });
+  }
+
+  /// Along the lines, and takes each part's state; false where the lines cross too often.
+  template <class StateAt>
+  bool divide(const std::vector<Line2>& lines, const StateAt& state_of) {
     delaunay_.clear();
     nodes_.clear();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -249,7 +281,7 @@ class Cutter {
     for (const auto face : delaunay_.finite_face_handles()) {
       const Polygon p = corners_of(face);
       const Point2 inside = middle(p[0], p[1], p[2]);
-      face->info().state = is_in_outline(inside) ? state_at(inside) : CoverState::open;
+      face->info().state = is_in_outline(inside) ? state_of(inside) : CoverState::open;
     }
     return true;
   }

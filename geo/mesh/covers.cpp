@@ -26,12 +26,14 @@ constexpr std::size_t most_pairs = 500'000'000;
 }  // namespace
 
 Covers::Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
-               const std::vector<std::uint8_t>& seals, const std::vector<std::uint8_t>& emits)
+               const std::vector<std::uint8_t>& seals, const std::vector<std::uint8_t>& emits,
+               Cavities cavities)
     : mesh_(mesh),
       bodies_(bodies),
       is_opaque_(is_opaque),
       seals_(seals),
       emits_(emits),
+      cavities_(cavities),
       open_houses_(mesh, bodies, is_opaque) {
   const Box box = bounding_box(mesh.vertices);
   contact_ = std::min(contact_m, contact_ratio * norm(box.high - box.low));
@@ -103,7 +105,20 @@ bool Covers::is_against(std::size_t t, std::size_t u) const {
   double before = 0;
   for (const Vec3 corner : corners(is_u_near ? u : t))
     before += distance(is_u_near ? t : u, corner) / 3;
-  return before >= -same_place_ || reaches_before(t, bodies_.triangle_body[u]);
+  if (before >= -same_place_) return true;
+  return !are_of_one_body(t, u) && reaches_before(t, bodies_.triangle_body[u]);
+}
+
+bool Covers::is_solid_behind(std::size_t t, Vec3 at) const {
+  if (!is_in_solid(t)) return false;
+  const Vec3 p = at - looked_at_m() * normal_[t];
+  int inside = 0;
+  tree_.visit_meeting({p, {p.x, p.y, std::numeric_limits<double>::infinity()}}, [&](std::size_t u) {
+    if (!are_of_one_body(t, u)) return;
+    const int side = plumb_crossing(corners(u), p.x, p.y);
+    if (side != 0 && plane_height(u, p.x, p.y) > p.z) inside += side;
+  });
+  return inside > 0;
 }
 
 /// Whether a body goes on before the front of `t`: one that begins just behind it, as of houses
@@ -130,14 +145,12 @@ Covers::Meets Covers::ending(std::size_t t, std::size_t u) const {
 bool Covers::is_buried(std::size_t t, Vec3 at) const {
   const Vec3 p = at + looked_at_m() * normal_[t];
   const auto own = bodies_.triangle_body[t];
-  // A cavity's fronts look into it: that is no part of the body around.
-  int inside = own >= 0 && bodies_.bodies[static_cast<std::size_t>(own)].is_closed &&
-                       bodies_.bodies[static_cast<std::size_t>(own)].volume < 0
-                   ? -1
-                   : 0;
+  // A cavity's fronts look into it: that is no part of the body around, where light may be.
+  int inside = cavities_ == Cavities::lit && is_in_cavity(t) ? -1 : 0;
   bool is_below_land = false;
   tree_.visit_meeting({p, {p.x, p.y, 1e300}}, [&](std::size_t u) {
-    if (is_in_solid(u) && bodies_.triangle_body[u] != own) {
+    const bool is_filled = cavities_ == Cavities::dark && is_in_cavity(u);
+    if (is_in_solid(u) && bodies_.triangle_body[u] != own && !is_filled) {
       const int side = plumb_crossing(corners(u), p.x, p.y);
       if (side != 0 && plane_height(u, p.x, p.y) > p.z) inside += side;
     }
@@ -256,6 +269,11 @@ void Covers::find_rims() {
 bool Covers::is_in_closed(std::size_t t) const {
   const auto b = bodies_.triangle_body[t];
   return b >= 0 && bodies_.bodies[static_cast<std::size_t>(b)].is_closed;
+}
+
+bool Covers::is_in_cavity(std::size_t t) const {
+  const auto b = bodies_.triangle_body[t];
+  return is_in_closed(t) && bodies_.bodies[static_cast<std::size_t>(b)].volume < 0;
 }
 
 bool Covers::is_near_plane(std::size_t plane, std::size_t of, double within) const {

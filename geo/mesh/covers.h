@@ -16,13 +16,17 @@
 
 namespace sunload {
 
+/// Hollows within closed bodies: rooms that a lamp may light, or filled for want of any.
+enum class Cavities { lit, dark };
+
 /// Answers questions about single triangles and pairs of them, by their numbers in the mesh. Const,
 /// but counts the pairs that are visited.
 class Covers {
  public:
   /// As of `cut_covered`; all must outlive it.
   Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
-         const std::vector<std::uint8_t>& seals, const std::vector<std::uint8_t>& emits);
+         const std::vector<std::uint8_t>& seals, const std::vector<std::uint8_t>& emits,
+         Cavities cavities);
 
   /// Surfaces this near to each other touch [m].
   double contact() const { return contact_; }
@@ -65,8 +69,12 @@ class Covers {
   bool is_taken(std::size_t t, std::size_t u) const;
   /// Whether `u` hides `t`, which faces the same way, from as near as `looked_at_m()`.
   bool is_behind(std::size_t t, std::size_t u) const;
-  /// Front against front, as near as the contact where they overlap; not back to back.
+  /// Front against front, as near as the contact where they overlap; not back to back. Of one body
+  /// what is in one place may be either.
   bool is_against(std::size_t t, std::size_t u) const;
+  /// Whether the body of `t`, which is a solid, has its inside behind this point of it: of two of
+  /// its faces in one place it tells solids that touch from the sides of a sheet.
+  bool is_solid_behind(std::size_t t, Vec3 at) const;
   /// How far before a surface it is looked whether it is buried [m].
   double looked_at_m() const { return 2 * contact_; }
   /// How a face, where the inside of a solid or the land ends, meets `t`: it goes through the plane
@@ -92,6 +100,7 @@ class Covers {
   bool is_bare_terrain(std::size_t t) const;
   bool is_in_solid(std::size_t t) const;
   bool is_in_closed(std::size_t t) const;
+  bool is_in_cavity(std::size_t t) const;
   void find_bodies();
   void find_land();
   void find_rims();
@@ -108,6 +117,7 @@ class Covers {
   const std::vector<std::uint8_t>& is_opaque_;
   const std::vector<std::uint8_t>& seals_;
   const std::vector<std::uint8_t>& emits_;
+  Cavities cavities_;
   OpenHouses open_houses_;
   double contact_ = 0, same_place_ = 0;
   std::vector<std::uint8_t> is_solid_;             ///< per body

@@ -5,28 +5,80 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geo/base/units.h"
 #include "geo/mesh/edge_table.h"
 
 namespace sunload {
 
 namespace {
 
-/// Uses of one edge, ordered by the angle of their triangles around it.
-std::vector<EdgeUse> around_edge(const Mesh& mesh, std::span<const EdgeUse> uses) {
+/// Triangles whose angles about an edge differ by less lie on each other: a party wall of two
+/// houses, a roof below a penthouse.
+constexpr double same_angle = 1e-3;
+
+/// A use of an edge and where its triangle lies about it.
+struct AngledUse {
+  double angle = 0;
+  std::uint32_t half_edge = 0;
+  std::int32_t sheet = -1;  ///< what hangs together by edges of two uses
+  bool up = false;          ///< with the fronts that these edges give it: it looks to larger angles
+};
+
+std::vector<AngledUse> by_angle(const Mesh& mesh, const Links& links, const Grouping& sheets,
+                                std::span<const EdgeUse> uses) {
   const Vec3 start = mesh.vertices[static_cast<std::size_t>(uses[0].low)];
   const Vec3 edge = mesh.vertices[static_cast<std::size_t>(uses[0].high)] - start;
   const double length = norm(edge);
-  std::vector<std::pair<double, EdgeUse>> order;
   const auto frame = tangents(length > 0 ? edge / length : Vec3{0, 0, 1});
+  std::vector<AngledUse> order;
   for (const auto& use : uses) {
-    const Vec3 apex = mesh.corner(use.triangle(), static_cast<int>((use.corner() + 2) % 3)) - start;
-    order.emplace_back(std::atan2(dot(apex, frame.bitangent), dot(apex, frame.tangent)), use);
+    const std::size_t t = use.triangle();
+    const Vec3 apex = mesh.corner(t, static_cast<int>((use.corner() + 2) % 3)) - start;
+    order.push_back({std::atan2(dot(apex, frame.bitangent), dot(apex, frame.tangent)),
+                     use.half_edge, sheets.body[t],
+                     (links.up[use.half_edge] ^ sheets.flip[t]) != 0});
   }
   std::stable_sort(order.begin(), order.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<EdgeUse> result;
-  for (const auto& item : order) result.push_back(item.second);
-  return result;
+                   [](const auto& a, const auto& b) { return a.angle < b.angle; });
+  return order;
+}
+
+/// How well `use` goes on after the one before it: of one sheet, the two must walk the edge in
+/// opposite directions; the fronts of different sheets may be wrong.
+int fit(const AngledUse& before, const AngledUse& use) {
+  const bool is_opposite = before.up != use.up;
+  return before.sheet == use.sheet ? (is_opposite ? 3 : 0) : (is_opposite ? 2 : 1);
+}
+
+/// Uses of one edge by the angle of their triangles around it. Of those that lie on each other
+/// that one comes first that goes on from what is before them, so that solids which touch stay
+/// apart; their fronts look at each other where nothing says which is first.
+std::vector<AngledUse> around_edge(std::vector<AngledUse> order) {
+  const std::size_t count = order.size();
+  const auto begins = [&](std::size_t i) {
+    const double before = i > 0 ? order[i - 1].angle : order[count - 1].angle - 2 * pi;
+    return order[i].angle - before > same_angle;
+  };
+  // From one that lies alone, or from where some begin that do not.
+  std::size_t first = 0;
+  for (std::size_t i = count; i-- > 0;)
+    if (begins(i) && (begins((i + 1) % count) || !begins(first))) first = i;
+  std::vector<std::size_t> group(count, 0);
+  for (std::size_t i = 1; i < count; ++i)
+    group[i] = group[i - 1] + (begins((first + i) % count) ? 1 : 0);
+  std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(first), order.end());
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t best = i;
+    const auto fits = [&](std::size_t k) {
+      return i > 0 ? fit(order[i - 1], order[k]) : (order[k].up ? 1 : 0);
+    };
+    for (std::size_t k = i + 1; k < count && group[k] == group[i]; ++k)
+      if (fits(k) > fits(best)) best = k;
+    const auto at = order.begin() + static_cast<std::ptrdiff_t>(i);
+    std::rotate(at, order.begin() + static_cast<std::ptrdiff_t>(best),
+                order.begin() + static_cast<std::ptrdiff_t>(best) + 1);
+  }
+  return order;
 }
 
 }  // namespace
@@ -35,19 +87,22 @@ Links link_edges(const Mesh& mesh, const std::vector<std::uint8_t>& included) {
   Links links;
   links.next.assign(3 * mesh.triangle_count(), no_link);
   links.up.assign(3 * mesh.triangle_count(), 0);
-  for_each_edge(edge_uses(mesh, included), [&](std::span<const EdgeUse> uses) {
+  const auto all = edge_uses(mesh, included);
+  for_each_edge(all, [&](std::span<const EdgeUse> uses) {
     for (const auto& use : uses) links.up[use.half_edge] = walks_up(mesh, use);
     if (uses.size() == 1) ++links.open_edges;
     if (uses.size() > 2) ++links.nonmanifold_edges;
-    if (uses.size() == 2) {
-      links.next[uses[0].half_edge] = uses[1].half_edge;
-      links.next[uses[1].half_edge] = uses[0].half_edge;
-    } else if (uses.size() % 2 == 0) {
-      const auto ring = around_edge(mesh, uses);
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        links.next[ring[i].half_edge] = ring[(i + 1) % ring.size()].half_edge;
-      }
-    }
+    if (uses.size() != 2) return;
+    links.next[uses[0].half_edge] = uses[1].half_edge;
+    links.next[uses[1].half_edge] = uses[0].half_edge;
+  });
+  if (links.nonmanifold_edges == 0) return links;
+  const Grouping sheets = group(mesh, links, included);
+  for_each_edge(all, [&](std::span<const EdgeUse> uses) {
+    if (uses.size() == 2 || uses.size() % 2 != 0) return;
+    const auto ring = around_edge(by_angle(mesh, links, sheets, uses));
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      links.next[ring[i].half_edge] = ring[(i + 1) % ring.size()].half_edge;
   });
   return links;
 }

@@ -289,6 +289,8 @@ namespace {
 
 /// Of a triangle, in `covers`.
 constexpr std::uint8_t opaque = 1, two_sided = 2, emitting = 4;
+/// Of all of them: something lights closed rooms.
+constexpr std::uint8_t lamps_within = 8;
 
 /// What follows from surfaces that lie in others, in words.
 struct Consequence {
@@ -331,13 +333,17 @@ std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepar
   assign_materials(study, {prepared.crs, prepared.site.north_deg}, scene, said_later);
   std::vector<std::uint8_t> covers;
   covers.reserve(scene.material.size());
+  bool has_lamps = !study.scene.luminaires.empty() || !study.scene.parallel_sources.empty();
   for (std::size_t t = 0; t < scene.material.size(); ++t) {
     const Material& material = scene.materials[scene.material[t].index()];
     const bool is_two_sided = scene.mesh.triangle_sides[t] == Sides::two;
     covers.push_back(static_cast<std::uint8_t>((material.transmittance == 0 ? opaque : 0) |
                                                (is_two_sided ? two_sided : 0) |
                                                (material.emission_w_m2 > 0 ? emitting : 0)));
+    has_lamps |= material.emission_w_m2 > 0;
   }
+  if (has_lamps)
+    for (std::uint8_t& of_triangle : covers) of_triangle |= lamps_within;
   return covers;
 }
 
@@ -366,7 +372,9 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
       emits[t] = (covers[t] & emitting) != 0;
       mesh.triangle_sides[t] = (covers[t] & two_sided) != 0 ? Sides::two : Sides::one;
     }
-    const CoveredCut cut = cut_covered(mesh, built.bodies, is_opaque, built.seals, emits);
+    const bool has_lamps = !covers.empty() && (covers.front() & lamps_within) != 0;
+    const CoveredCut cut = cut_covered(mesh, built.bodies, is_opaque, built.seals, emits,
+                                       has_lamps ? Cavities::lit : Cavities::dark);
     for (std::size_t t = 0; t < cut.source.size(); ++t)
       mesh.triangle_sides[t] = sides_of_files[cut.source[t]];
     if (cut.covered > 0 || cut.taken.area_m2 > 0) measure(mesh, built.report);

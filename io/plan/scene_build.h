@@ -46,7 +46,7 @@ BuiltScene scene_before_materials(const Study& study);
 /// depends on north.
 void turn_to_north(const Study& study, BuiltScene& built);
 /// What materials will say of each triangle: whether light passes it or begins there, and on how
-/// many sides it is lit.
+/// many sides it is lit; and whether lamps may be in closed rooms.
 std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepared);
 /// The second step: the scene without what is covered. Of materials it depends on `covers` alone.
 BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
