@@ -31,10 +31,11 @@ struct LandHorizon {
 
 /// What the land hides, with the Earth's curvature and the bending of light along it: at the
 /// distance d heights fall by (1 - k) d² / 2R, with R = 6371 km and k = 0.13 (Gauss' coefficient
-/// of terrestrial refraction; Torge & Müller 2012, Geodesy, 5.1.2). Heights are linear between the
-/// middles of cells; rays go in steps of half a cell. `unit_m`: of one unit of the raster. Cost:
-/// 360 / step · distance / half a cell. Throws InputError, which names `path`, where the place lies
-/// outside of the raster or on cells without data.
+/// of terrestrial refraction; Torge & Müller 2012, Geodesy, 5.1.2). Heights are bilinear between
+/// the middles of cells, and the highest of each ray is exact: where it crosses lines between
+/// middles, or where its profile has its own top between two of them. `unit_m`: of one unit of the
+/// raster. Cost: 360 / step · distance / cell. Throws InputError, which names `path`, where the
+/// place lies outside of the raster or on cells without data.
 LandHorizon land_horizon(const std::string& path, const Raster& raster, double unit_m,
                          const LandView& view);
 
