@@ -87,6 +87,44 @@ std::vector<std::size_t> chosen_groups(const ResultReader& result, const ExportR
   return chosen;
 }
 
+/// Means over groups of patches, of one interval after the other.
+class GroupSeries {
+ public:
+  GroupSeries(const ResultReader& result, const PatchGroups& groups)
+      : result_(result),
+        groups_(groups),
+        of_patches_(dataset_name("irradiance", result.quantity())),
+        of_facades_(dataset_name("facade_irradiance", result.quantity())) {
+    if (!result.has(of_facades_)) return;
+    const auto names = result.strings("facade_name");
+    // Groups are in the order of the file; facades without patches are none.
+    std::size_t facade = 0;
+    for (std::size_t g = 0; g < groups.groups().size(); ++g) {
+      if (groups.groups()[g].kind != "facade") continue;
+      while (names.at(facade) != groups.groups()[g].name) ++facade;
+      stored_.push_back({g, facade++});
+    }
+  }
+  /// Facades as the file has them, where it does: of patches whose values were not yet rounded
+  /// (`output.significant_bits`).
+  std::vector<double> means(std::size_t interval) const {
+    auto all = groups_.means(result_.row(of_patches_, interval).data());
+    if (stored_.empty()) return all;
+    const auto of_facades = result_.row(of_facades_, interval);
+    for (const auto& [group, facade] : stored_) all[group] = of_facades.at(facade);
+    return all;
+  }
+
+ private:
+  struct StoredFacade {
+    std::size_t group, facade;
+  };
+  const ResultReader& result_;
+  const PatchGroups& groups_;
+  std::string of_patches_, of_facades_;
+  std::vector<StoredFacade> stored_;
+};
+
 /// Sun, sky, ledger, and the means of the irradiance over the whole, surfaces, objects and facades,
 /// of the intervals that the chosen part of the period has a share in.
 void write_series(const ResultReader& result, const ExportRules& rules, std::ostream& out) {
@@ -101,6 +139,7 @@ void write_series(const ResultReader& result, const ExportRules& rules, std::ost
                      "write --of facade or object, or read the result file itself");
   const PatchGroups groups(result);
   const auto chosen = chosen_groups(result, rules, groups);
+  const GroupSeries series(result, groups);
   std::vector<std::vector<double>> columns;
   out << "begin_utc,end_utc,sun_utc";
   for (const auto& name : time_columns(result)) {
@@ -122,7 +161,7 @@ void write_series(const ResultReader& result, const ExportRules& rules, std::ost
     out << iso_utc(bounds[2 * k]) << "," << iso_utc(bounds[2 * k + 1]) << "," << iso_utc(time[k]);
     for (const auto& column : columns) out << "," << csv_number(column[k]);
     if (has_light) {
-      const auto means = groups.means(result.row(dataset, k).data());
+      const auto means = series.means(k);
       for (const auto g : chosen) out << "," << csv_number(means[g]);
     }
     out << "\n";

@@ -7,6 +7,7 @@
 #include "geo/base/units.h"
 #include "geo/mesh/mesh.h"
 #include "io/base/statistics.h"
+#include "io/batch/facade_means.h"
 #include "io/result/writer.h"
 #include "tests/support/work_folder.h"
 
@@ -113,8 +114,9 @@ ResultTimes times() {
 }
 
 /// One batch with the series and the ledger of all intervals.
-void append_series(ResultWriter& writer, const std::vector<double>& load, const std::string& path,
-                   std::size_t chunk_intervals) {
+void append_series(ResultWriter& writer, const std::vector<double>& load,
+                   const ResultGeometry& geometry, std::optional<double> facade_share,
+                   const std::string& path, std::size_t chunk_intervals) {
   BatchHeader header;
   header.content_hash = "none";
   header.isa = "none";
@@ -127,6 +129,18 @@ void append_series(ResultWriter& writer, const std::vector<double>& load, const 
   batch.add(
       {"irradiance", MergeRule::append, ArrayType::float32, {interval_share.size(), load.size()}},
       irradiance.data());
+  if (facade_share) {
+    const std::size_t facades = geometry.facade_name.size();
+    const FacadeMeans means(geometry.patch_facade, geometry.patch_area, facades);
+    std::vector<float> of_facades;
+    for (const double mean : means.of(irradiance, Divided::sums))
+      of_facades.push_back(static_cast<float>(*facade_share * mean));
+    batch.add({"facade_irradiance",
+               MergeRule::append,
+               ArrayType::float32,
+               {interval_share.size(), facades}},
+              of_facades.data());
+  }
   const std::vector<double> in(interval_share.size(), 5000), out(interval_share.size(), 4990),
       residual(interval_share.size(), 10);
   const auto ledger = [&](const char* name, const std::vector<double>& power) {
@@ -184,7 +198,8 @@ std::string write_small_result(const SmallResult& result, const std::string& nam
     load[i] = sample_mean(samples).mean;
     se[i] = sample_mean(samples).se;
   }
-  append_series(writer, load, path.string() + ".batch", options.chunk_intervals);
+  append_series(writer, load, geometry, result.facade_share, path.string() + ".batch",
+                options.chunk_intervals);
   writer.write({"light_load", load});
   writer.write({"light_load_se", se});
   if (result.reflected_share > 0) {

@@ -35,6 +35,8 @@ struct SmallResult {
   std::optional<double> diffuse_reflectance = {};
   double emitted_exitance = 0;  ///< [W m-2], of all patches; 0: not stored
   double reflected_share = 0;   ///< of every load; 0: reflected light is not stored
+  /// `facade_irradiance`, of what the means over patches are; nothing: not stored.
+  std::optional<double> facade_share = {};
   /// Hours of sun of a patch of that object and normal.
   std::function<double(const std::string& object, Vec3 normal)> hours = [](const std::string&,
                                                                            Vec3) { return 3.0; };

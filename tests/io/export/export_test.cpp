@@ -270,6 +270,33 @@ TEST(Export, TablesHaveARowPerPatchOrTime) {
       << last << " " << 200 * sum / whole;
 }
 
+// The file's are means of values that are not rounded.
+TEST(Export, SeriesOfFacadesAreThoseOfTheFile) {
+  SmallResult with;
+  with.facade_share = 1.01;
+  ExportRules rules;
+  rules.format = "csv";
+  rules.quantity = "series";
+  rules.of = "facade";
+  rules.parts.facades = {"house_1/south_1", "house_2/north_1"};
+  // 3 and 1 kWh/m², two hundredfold in the last hour.
+  const auto last = [&](const SmallResult& result, const std::string& name) {
+    return lines_of(exported(write_small_result(result, name), rules)).back();
+  };
+  const auto own = last(with, "export_stored_facades"), means = last({}, "export_facades");
+  const auto ends_with = [](const std::string& line, const std::string& end) {
+    return line.size() > end.size() && line.compare(line.size() - end.size(), end.size(), end) == 0;
+  };
+  EXPECT_TRUE(ends_with(own, ",606,202")) << own;
+  EXPECT_TRUE(ends_with(means, ",600,200")) << means;
+  // Other groups are not in the file.
+  rules.of = "object";
+  rules.parts.facades.clear();
+  rules.parts.objects = {"ground"};
+  const auto ground = last(with, "export_stored_ground");
+  EXPECT_TRUE(ends_with(ground, ",600")) << ground;
+}
+
 TEST(Export, TablesAreOfWhatIsNamed) {
   const auto path = write_small_result({}, "export_named");
   ExportRules rules;
