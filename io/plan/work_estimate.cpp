@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geo/base/units.h"
+#include "geo/sky/sky.h"
 #include "io/plan/mesh_family.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/seasons_of_plan.h"
@@ -177,6 +178,58 @@ double receivers(const VariantPlan& plan, std::size_t patches) {
 
 double band_factor(const VariantPlan& plan) {
   return plan.study.solver.bands == Bands::rgb ? static_cast<double>(band_count) : 1;
+}
+
+/// What is kept of a line of a patch that has so many: links to diffuse surfaces and to the sky,
+/// those of what mirrors and the like send on, and where it met a glossy surface.
+double kept_bytes_of_line(const VariantPlan& plan, double lines_per_patch, bool guided) {
+  const Mesh& mesh = plan.built.scene.mesh;
+  return (guided ? kept_bytes_per_guided_line : 0) +
+         mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
+           const auto is_linked = [](const Material& m) { return m.diffuse > 0 || emits(m); };
+           const auto is_glossy = [](const Material& m) { return m.glossy > 0; };
+           const double linked = share_of_surfaces(mesh, of_season, is_linked);
+           const double rays = rays_per_line(mesh, of_season, plan.study.solver.mirror_depth);
+           const double met = share_that_meets * linked, left = 1 - share_that_meets;
+           return kept_bytes_per_line(lines_per_patch) * (met + left) +
+                  kept_bytes_per_weighted_link * (rays - 1) * (met + left) +
+                  kept_bytes_per_glimpse * rays * share_that_meets *
+                      share_of_surfaces(mesh, of_season, is_glossy);
+         });
+}
+
+/// Lines and skies and suns of few that a process leaves for those that come later; of sensors
+/// nothing. Written where there are two batches, and the scene is one in all seasons.
+double prepared_bytes(const VariantPlan& plan, double patches, double lines_per_patch, bool guided,
+                      double node_bytes) {
+  if (plan.batches() < 2 || !plan.seasons.all.empty()) return 0;
+  const auto materials = materials_of(plan);
+  const bool sent_on = std::any_of(materials.begin(), materials.end(), sends_on);
+  const double cells = sent_on ? SkyGrid().cell_count() + 1.0 : 0;  // and the far ground
+  const bool by_matrix = plan.study.solver.transport == Transport::matrix;
+  const double sets = plan.study.solver.realizations + 1.0;  // and all together
+  return sets * (patches * (kept_bytes_per_patch + (guided ? kept_bytes_per_lit_patch : 0) +
+                            (by_matrix ? patches * kept_bytes_per_factor : 0)) +
+                 cells * kept_bytes_per_cell) +
+         patches * lines_per_patch * kept_bytes_of_line(plan, lines_per_patch, guided) + node_bytes;
+}
+
+/// The result but for series and parts of the period.
+double result_bytes(const VariantPlan& plan, double n, double parts, double bands) {
+  const double kinds =
+      parts * result_bytes_per_kind + double_bytes * plan.study.solver.realizations;
+  return bytes_per_result + n * geometry_bytes_per_patch +
+         n * static_cast<double>(plan.study.measures.size()) * bytes_per_measure +
+         bands * n * (result_bytes_per_patch + kinds);
+}
+
+/// Sun, sky, ledger and facades' means of every interval in batches and result, and what batches
+/// have besides.
+double interval_bytes(const VariantPlan& plan, double bands, double value_bytes) {
+  const auto facades = static_cast<double>(plan.built.scene.mesh.facades.size());
+  return static_cast<double>(plan.batches()) * bytes_per_batch +
+         static_cast<double>(plan.intervals()) * bands * stored_bytes_per_interval +
+         2 * static_cast<double>(lit_intervals(plan)) * bands * facades * value_bytes;
 }
 
 /// Patches that look at the bright sky about the sun by rays; shooting leaves it to lines.
@@ -414,14 +467,14 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   }
   work.disk_bytes =
       bands * n * stored.on_disk + bands * n * batches * batch_sums +
-      bands * n * (of_realizations + result_bytes_per_patch) +
+      result_bytes(plan, n, parts, bands) + interval_bytes(plan, bands, value_bytes) +
       bands * n *
           (static_cast<double>(periods.stored) * sums_of_part * double_bytes +
            static_cast<double>(periods.stored_with_errors) * float_bytes * s.realizations) +
       bands * n * float_bytes *
           (static_cast<double>(periods.parts) * values_of_part +
            static_cast<double>(periods.parts_with_errors) * s.realizations) +
-      (plan.batches() > 1 && seasons == 1 ? lines * kept_bytes_per_line + node_bytes : 0);
+      prepared_bytes(plan, static_cast<double>(patches), counts.mean_lines(), guided, node_bytes);
   WorkSeconds core;  // of one core
   core.lines =
       seasons * tracing_seconds(plan, n, lines, guided) +

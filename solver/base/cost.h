@@ -7,6 +7,7 @@
 /// with these. Estimates are made of them, and the choice of counts for an accuracy.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace sunload::cost {
@@ -93,8 +94,27 @@ inline constexpr double columns_of_a_realization = 8;     ///< direct sun, in do
 inline constexpr double arrays_of_realizations = 4;       ///< doubles of a patch and realization
 
 // Disk.
-inline constexpr double stored_bytes_per_value = 2.5;
-inline constexpr double kept_bytes_per_line = 6.7;  ///< in the prepared file
-inline constexpr double batch_bytes_per_patch = 80, result_bytes_per_patch = 175;
+inline constexpr double stored_bytes_per_value = 3.2;
+inline constexpr double batch_bytes_per_patch = 80, bytes_per_batch = 1e4;
+/// Of the result: geometry, what it has once and of each kind of light, and measures with their
+/// times; names, text and tables; sun, sky and ledger of an interval, in batches and result.
+inline constexpr double geometry_bytes_per_patch = 110, result_bytes_per_patch = 40,
+                        result_bytes_per_kind = 16, bytes_per_measure = 24,
+                        bytes_per_result = 1.3e5, stored_bytes_per_interval = 300;
+/// The prepared file, of each realization and of all together: beginnings of links and ends of
+/// lines, what emitters send, and of cells of the sky the fate of what surfaces send on.
+inline constexpr double kept_bytes_per_patch = 44, kept_bytes_per_lit_patch = 8,
+                        kept_bytes_per_cell = 40;
+inline constexpr double kept_bytes_per_factor = 8;  ///< of each two patches, by matrix
+/// Links, in their realization and in all lines together. The more lines a patch has, the more of
+/// them end where others do (streets and a square, 16 … 1024 lines; nowhere more).
+inline double kept_bytes_per_line(double lines_per_patch) {
+  constexpr double of_one = 9.3, less_for_twice = 0.3, least = 4;
+  return std::max(least, of_one - less_for_twice * std::log2(std::max(lines_per_patch, 1.0)));
+}
+/// Links that have weights of their own: of what is sent on, and by points on bright surfaces.
+inline constexpr double kept_bytes_per_weighted_link = 16, kept_bytes_per_guided_line = 11;
+/// Where a line met a glossy surface.
+inline constexpr double kept_bytes_per_glimpse = 48;
 
 }  // namespace sunload::cost

@@ -86,6 +86,53 @@ TEST(Shards, OneAfterAnotherGiveTheSameBits) {
   EXPECT_EQ(program(folder, {"merge", "street.yaml"}).code, 0);
 }
 
+/// Bytes of files of the results folder.
+double bytes_of_files(const WorkFolder& folder, const std::string& end) {
+  double bytes = 0;
+  for (const auto& name : files(folder, end))
+    bytes += static_cast<double>(std::filesystem::file_size(folder / ("results/" + name)));
+  return bytes;
+}
+
+/// What `check` says of the disk, by what lies there at the end of the merge.
+double told_by_peak(const std::string& study) {
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  folder.write("study.yaml", study);
+  const std::string checked = program(folder, {"check", "study.yaml", "--json"}).out;
+  std::smatch told;
+  EXPECT_TRUE(std::regex_search(checked, told, std::regex("\"disk_bytes\": (\\d+)"))) << checked;
+  const auto run = [&](const char* shard) {
+    return program(folder, {"run", "study.yaml", "--keep-batches", "--shard", shard});
+  };
+  EXPECT_EQ(run("0/2").code, 0);
+  const double prepared = bytes_of_files(folder, "/prepared");
+  EXPECT_GT(prepared, 0);
+  EXPECT_EQ(run("1/2").code, 0);
+  const double others = bytes_of_files(folder, ".batch") + bytes_of_files(folder, ".h5");
+  return std::stod(told[1]) / (prepared + others);
+}
+
+// The largest of files is the prepared one here, with mirrors' fates and places on gloss.
+TEST(Shards, TheDiskHasRoomForThePreparedFileToo) {
+  const std::string lamps = square_study();
+  const auto without = [](std::string text, const std::string& part, const std::string& by) {
+    return text.replace(text.find(part), part.size(), by);
+  };
+  const std::string mirror = without(lamps, ", emission_w_m2: 200", ""),
+                    gloss = without(mirror, "mirror: 0.85", "glossy: 0.5, glossy_exponent: 30");
+  const std::string diffuse = without(mirror, ", mirror: 0.85", "");
+  const std::string many = without(mirror, "lines_per_patch: 64", "lines_per_patch: 1024");
+  const std::string matrix =
+      without(without(diffuse, "max_edge_m: 1.5", "max_edge_m: 4"), "batch_suns: 2",
+              "batch_suns: 2, transport: matrix");  // takes no more than 2000 patches
+  for (const std::string& study : {lamps, mirror, gloss, diffuse, many, matrix}) {
+    const double ratio = told_by_peak(study);
+    EXPECT_GT(ratio, 1) << study;
+    EXPECT_LT(ratio, 1.25) << study;
+  }
+}
+
 // What is merged before the end says so wherever it is read.
 TEST(Shards, APartialResultSaysWhatIsMissing) {
   const WorkFolder folder;

@@ -20,10 +20,11 @@ namespace {
 
 using namespace cost;
 
-std::string scaling_page() {
-  std::ifstream file(test::source_folder() + "/docs/scaling.md");
+std::string page_of(const std::string& name) {
+  std::ifstream file(test::source_folder() + "/docs/" + name);
   return {std::istreambuf_iterator<char>(file), {}};
 }
+std::string scaling_page() { return page_of("scaling.md"); }
 
 std::string micro_s(double seconds) { return fmt::format("{:.4g} µs", 1e6 * seconds); }
 std::string nano_s(double seconds) { return fmt::format("{:.4g} ns", 1e9 * seconds); }
@@ -65,7 +66,7 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
 }
 
 TEST(CostModel, PageHasTheSizesOfTheProgram) {
-  const std::string page = scaling_page();
+  const std::string page = scaling_page() + page_of("batch-file.md");
   for (const std::string& row :
        {fmt::format("{} · intervals + {} MB + {} · lines + patches · ({} · kept · min(batch_suns, "
                     "intervals) + {} "
@@ -77,10 +78,21 @@ TEST(CostModel, PageHasTheSizesOfTheProgram) {
                     stored_bytes_per_value),
         fmt::format("patches · batches · ({} · parts · realizations + {})", float_bytes,
                     batch_bytes_per_patch),
-        fmt::format("patches · ({} · realizations + {})", double_bytes, result_bytes_per_patch),
+        fmt::format("patches · ({} + {} · measures + {} · parts + {} · realizations)",
+                    geometry_bytes_per_patch + result_bytes_per_patch, bytes_per_measure,
+                    result_bytes_per_kind, double_bytes),
         fmt::format("{} · patches + {} · input triangles for each season after the first",
                     season_bytes_per_patch, season_bytes_per_triangle),
-        fmt::format("{} · lines for the prepared file", kept_bytes_per_line)})
+        fmt::format("{} kB + {} kB · batches + {} · intervals", bytes_per_result / 1e3,
+                    bytes_per_batch / 1e3, stored_bytes_per_interval),
+        fmt::format("{:.1f} at 16, {:.1f} at 256, {:.1f} at 1024 lines of a patch",
+                    kept_bytes_per_line(16), kept_bytes_per_line(256), kept_bytes_per_line(1024)),
+        fmt::format("(realizations + 1) · ({} · patches", kept_bytes_per_patch),
+        fmt::format("{} · 4097 where surfaces send light on", kept_bytes_per_cell),
+        fmt::format("{} · patches² by matrix", kept_bytes_per_factor),
+        fmt::format("{} of what is sent on", kept_bytes_per_weighted_link),
+        fmt::format("{} where a line meets gloss", kept_bytes_per_glimpse),
+        fmt::format("{} where surfaces emit", kept_bytes_per_guided_line)})
     EXPECT_NE(page.find(row), std::string::npos) << row;
 }
 
