@@ -253,20 +253,20 @@ void order_by_object(PreparedMesh& prepared) {
   sort(prepared.seals);
 }
 
-/// Step 9.
-void drop_degenerates(Mesh& mesh, Repair repair, const std::string& source, PrepareReport& report,
-                      Bodies& bodies, std::vector<Foot>& feet) {
-  const auto keep = with_area(mesh, repair == Repair::none ? 0 : least_height_ratio);
-  const auto degenerates = static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 0));
-  report.degenerates_dropped += degenerates;
+/// Step 9. Returns per triangle that there was 1 where it stays.
+std::vector<std::uint8_t> drop_degenerates(Mesh& mesh, double height_ratio, Repair repair,
+                                           const std::string& source, PrepareReport& report) {
+  auto keep = with_area(mesh, height_ratio);
+  report.degenerates_dropped +=
+      static_cast<std::size_t>(std::count(keep.begin(), keep.end(), std::uint8_t{0}));
   if (repair == Repair::none && report.degenerates_dropped > 0) {
     throw InputError({source}, counted(report.degenerates_dropped, "polygon") + " without area",
                      "irradiance is light per area", "set scene.repair: safe");
   }
   keep_triangles(mesh, keep);
-  if (degenerates > 0) keep_bodies(keep, bodies, feet);
   if (mesh.triangle_count() == 0) throw nothing_left(source, report);
   drop_unused_vertices(mesh);
+  return keep;
 }
 
 /// Less is not worth a word [m2].
@@ -334,6 +334,21 @@ void measure(const Mesh& mesh, PrepareReport& report) {
   report.bounds = bounding_box(mesh.vertices);
 }
 
+PlainTriangles plain_triangles(const PolygonModel& model, Repair repair) {
+  check_model(model);
+  const auto is_used = used_vertices(model);
+  PrepareRules rules;
+  rules.repair = Repair::none;
+  PrepareReport report;
+  report.polygons_read = model.polygon_count();
+  PlainTriangles result;
+  result.mesh = triangles_of(model, rules, place(model, is_used, {}), is_used, report);
+  drop_degenerates(result.mesh, 0, repair, model.source, report);
+  add_warnings(report, rules.orientation);
+  result.warnings = std::move(report.warnings);
+  return result;
+}
+
 PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules) {
   check_model(model);
   const auto is_used = used_vertices(model);
@@ -347,7 +362,9 @@ PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules) {
   mesh = triangles_of(model, rules, placement, is_used, report);
   auto feet = settle(mesh, rules, model, weld_tolerance(rules.repair, placement.diagonal), report,
                      result.bodies);
-  drop_degenerates(mesh, rules.repair, model.source, report, result.bodies, feet);
+  const double height_ratio = rules.repair == Repair::none ? 0 : least_height_ratio;
+  const auto keep = drop_degenerates(mesh, height_ratio, rules.repair, model.source, report);
+  if (mesh.triangle_count() < keep.size()) keep_bodies(keep, result.bodies, feet);
   result.facades = find_facades(mesh, rules.north_deg);
   if (rules.ground) {
     auto made = add_ground(mesh, feet, *rules.ground);

@@ -110,6 +110,16 @@ struct PreparedMesh {
 /// have no area, and, under `all`, where the edges of too many of them overlap.
 PreparedMesh prepare(const PolygonModel& model, const PrepareRules& rules);
 
+/// The triangles of a model as its file has them.
+struct PlainTriangles {
+  Mesh mesh;                          ///< without facades; kinds of surface as read
+  std::vector<std::string> warnings;  ///< of what was left out, or has another shape; as in reports
+};
+
+/// Steps 1 to 4 with the rules of `none`, for files that only hold triangles. What has no area is
+/// left out with a warning, or refused where `repair` is `none`. Throws as `prepare` does.
+PlainTriangles plain_triangles(const PolygonModel& model, Repair repair);
+
 /// Areas, bounds, floors and slivers of the report, anew after triangles were divided.
 void measure(const Mesh& mesh, PrepareReport& report);
 

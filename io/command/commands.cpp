@@ -158,8 +158,9 @@ int render_study(RenderOptions options) {
   return exit_code::done;
 }
 
-void write_scene(const PolygonModel& model, const std::string& path, double crs_unit_m = 1) {
-  if (path.ends_with(".obj")) return write_obj(model, path);
+void write_scene(const PolygonModel& model, const std::string& path, Repair repair = Repair::safe,
+                 double crs_unit_m = 1) {
+  if (path.ends_with(".obj")) return tell_warnings(write_obj(model, path, repair));
   if (path.ends_with(".json")) return write_cityjson(model, path, crs_unit_m);
   throw InputError({path}, "is of no format that scenes are written in", "",
                    "let its name end in .obj or .city.json");
@@ -185,7 +186,7 @@ int write_edited(const BuiltinOptions& options) {
   expect_scene_not_read(options.path, model.files);
   if (!study.site.crs.empty()) model.crs = study.site.crs;
   for (const auto& note : model.notes) tell("note: " + note);
-  write_scene(model, options.path, crs_unit_m(study.scene, model.crs));
+  write_scene(model, options.path, study.scene.repair, crs_unit_m(study.scene, model.crs));
   return exit_code::done;
 }
 

@@ -6,8 +6,8 @@
 
 #include <filesystem>
 #include <iterator>
+#include <utility>
 
-#include "geo/mesh/mesh_prepare.h"
 #include "io/base/file_aside.h"
 
 namespace sunload {
@@ -75,10 +75,11 @@ void write_obj(const Mesh& mesh, const std::string& path) {
   write_file(path, scene_text(mesh, std::filesystem::path(library).filename().string()));
 }
 
-void write_obj(const PolygonModel& model, const std::string& path) {
-  PrepareRules rules;
-  rules.repair = Repair::none;
-  write_obj(prepare(model, rules).mesh, path);
+std::vector<std::string> write_obj(const PolygonModel& model, const std::string& path,
+                                   Repair repair) {
+  PlainTriangles triangles = plain_triangles(model, repair);
+  write_obj(triangles.mesh, path);
+  return std::move(triangles.warnings);
 }
 
 }  // namespace sunload

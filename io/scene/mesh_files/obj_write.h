@@ -4,8 +4,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "geo/mesh/mesh.h"
+#include "geo/mesh/mesh_prepare.h"
 
 namespace sunload {
 
@@ -21,7 +23,10 @@ std::string obj_library(const std::string& path);
 /// Throws MachineError where a file cannot be written.
 void write_obj(const Mesh& mesh, const std::string& path);
 
-/// The same for polygons: triangulated without any repair (OBJ has no holes).
-void write_obj(const PolygonModel& model, const std::string& path);
+/// The same for polygons: triangulated without any repair (OBJ has no holes). What has no area is
+/// left out, or refused (InputError, nothing is written) where `repair` is `none`. Returns warnings
+/// of what was left out, or has another shape.
+std::vector<std::string> write_obj(const PolygonModel& model, const std::string& path,
+                                   Repair repair = Repair::safe);
 
 }  // namespace sunload

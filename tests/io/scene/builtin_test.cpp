@@ -461,5 +461,28 @@ TEST(SceneBuiltin, ObjReadsBackAsTheSameScene) {
   EXPECT_THROW(write_obj(model, folder / "missing/a.obj"), MachineError);
 }
 
+TEST(SceneBuiltin, ObjIsWrittenWithoutWhatHasNoArea) {
+  const test::WorkFolder folder;
+  const auto path = folder / "square.obj";
+  PolygonModel model;
+  model.source = "square";
+  model.object_names = {"square"};
+  model.object_kinds = {""};
+  model.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {1, 1e-8, 0}};
+  const PolygonModel::Facts facts{.object = make_id<ObjectId>(0)};
+  model.add_polygon({{0, 1, 2, 3}}, facts);
+  EXPECT_TRUE(write_obj(model, path).empty());
+  model.add_triangle(0, 1, 4, facts);  // a line
+  model.add_triangle(0, 1, 1, facts);  // two corners
+  model.add_triangle(0, 4, 5, facts);  // thin, but with area: stays
+  const auto warnings = write_obj(model, path);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("polygons and triangles without area: 2;"), std::string::npos);
+  EXPECT_EQ(read_scene_file(path, {}).polygon_count(), 3u);
+  const auto refused = folder / "refused.obj";
+  EXPECT_THROW(write_obj(model, refused, Repair::none), InputError);
+  EXPECT_FALSE(std::filesystem::exists(refused)) << "nothing is written";
+}
+
 }  // namespace
 }  // namespace sunload
