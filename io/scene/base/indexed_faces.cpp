@@ -105,6 +105,7 @@ PolygonModel IndexedFaces::finish() {
     notes_.count("vertices used by no face left out", unused);
   }
   model_.vertices = std::move(vertices_);
+  transparent_.count_used(model_, notes_);
   for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
   return std::move(model_);
 }

@@ -10,6 +10,7 @@
 
 #include "geo/mesh/mesh.h"
 #include "io/scene/base/from_file.h"
+#include "io/scene/base/transparent_materials.h"
 
 namespace sunload {
 
@@ -36,6 +37,8 @@ class IndexedFaces {
   void use_surface(Surface surface) { facts_.surface = surface; }
   void use_material(MaterialId material, Sides sides = Sides::one);
   MaterialId add_material(FileMaterial material);
+  /// That the file lets light pass it.
+  void note_transparent(MaterialId material) { transparent_.add(material); }
 
   /// Corners of the next face one by one; faces of fewer than 3 are left out and counted.
   void add_corner(std::int32_t vertex) { model_.ring_vertex.push_back(vertex); }
@@ -54,6 +57,7 @@ class IndexedFaces {
   SceneFromFile scene_from_file_;
   PolygonModel model_;
   NoteCounter notes_;
+  TransparentMaterials transparent_;
   std::vector<Vec3> vertices_;
   std::unordered_map<std::string, ObjectId> objects_;
   std::string object_name_, object_kind_;

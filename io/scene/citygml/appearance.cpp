@@ -91,6 +91,8 @@ MaterialId CityAppearance::add_material(XmlElement material, PolygonModel& model
     key += ' ' + std::to_string(share);
   const auto [entry, is_new] = ids_.try_emplace(key, make_id<MaterialId>(model.materials.size()));
   if (is_new) model.materials.push_back(std::move(result));
+  if (finite_number(trimmed(material.child("transparency").text())).value_or(0) > 0)
+    transparent_.add(entry->second);
   return entry->second;
 }
 

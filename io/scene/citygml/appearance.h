@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geo/mesh/mesh.h"
+#include "io/scene/base/transparent_materials.h"
 #include "io/scene/citygml/document.h"
 
 namespace sunload {
@@ -22,6 +23,8 @@ class CityAppearance {
   /// The material of the element with this id, or `otherwise`.
   MaterialId of(XmlElement element, MaterialId otherwise) const;
 
+  const TransparentMaterials& transparent() const { return transparent_; }
+
  private:
   struct Themed {
     std::string theme;
@@ -31,6 +34,7 @@ class CityAppearance {
 
   std::unordered_map<std::string, Themed> of_id_;
   std::unordered_map<std::string, MaterialId> ids_;  ///< by name and colour
+  TransparentMaterials transparent_;
 };
 
 }  // namespace sunload

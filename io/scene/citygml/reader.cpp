@@ -58,6 +58,7 @@ class CityReader {
       }
     }
     add_families();
+    appearance_.transparent().count_used(model_, notes_);
     for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
     return std::move(model_);
   }

@@ -16,6 +16,7 @@
 #include "io/base/json_text.h"
 #include "io/scene/base/city_types.h"
 #include "io/scene/base/from_file.h"
+#include "io/scene/base/transparent_materials.h"
 #include "io/scene/base/words.h"
 #include "io/scene/cityjson/geometry.h"
 #include "io/scene/cityjson/select.h"
@@ -68,6 +69,7 @@ class CityReader {
   PolygonModel finish() {
     refuse_degrees();
     add_families();
+    transparent_.count_used(model_, notes_);
     for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
     return std::move(model_);
   }
@@ -173,6 +175,9 @@ class CityReader {
     const auto [entry, is_new] =
         material_ids_.try_emplace(key, make_id<MaterialId>(model_.materials.size()));
     if (is_new) model_.materials.push_back(std::move(result));
+    const auto* transparency = find_member(material, "transparency");
+    if (transparency != nullptr && transparency->is_number() && transparency->get<double>() > 0)
+      transparent_.add(entry->second);
     return entry->second;
   }
 
@@ -258,6 +263,7 @@ class CityReader {
   CityTemplates templates_;
   PolygonModel model_;
   NoteCounter notes_;
+  TransparentMaterials transparent_;
   json header_;
   VertexTransform transform_;
   CityMaterials header_materials_;

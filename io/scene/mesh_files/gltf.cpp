@@ -43,6 +43,11 @@ std::optional<std::vector<double>> numbers_of(const json& object, const char* ke
   return numbers;
 }
 
+double number_of(const json& object, const char* key, double otherwise) {
+  const auto number = object.value(key, json());
+  return number.is_number() ? number.get<double>() : otherwise;
+}
+
 /// A unit quaternion (x, y, z, w) as axes.
 Affine rotation(const std::vector<double>& q) {
   const double x = q[0], y = q[1], z = q[2], w = q[3];
@@ -222,29 +227,56 @@ class GltfReader {
     if (index.is_null()) return faces_.use_material(MaterialId::none());
     const auto& material = file_.entry("materials", index);
     const auto [entry, is_new] = materials_.try_emplace(index.get<std::size_t>());
-    if (is_new) entry->second = faces_.add_material(read_material(material));
+    if (is_new) {
+      entry->second = faces_.add_material(read_material(material));
+      if (is_transparent(material)) faces_.note_transparent(entry->second);
+    }
     const auto two = material.value("doubleSided", json());
     faces_.use_material(entry->second,
                         two.is_boolean() && two.get<bool>() ? Sides::two : Sides::one);
   }
 
+  /// The member that tells the colour of a material, and what it calls the colour and its texture.
+  struct Colours {
+    json members;
+    const char *factor, *texture;
+
+    std::optional<std::vector<double>> rgba() const {
+      return members.is_object() ? numbers_of(members, factor, 4) : std::nullopt;
+    }
+  };
+
+  static Colours colours_of(const json& material) {
+    const auto extensions = material.value("extensions", json::object());
+    if (const char* glossy = "KHR_materials_pbrSpecularGlossiness";
+        extensions.is_object() && extensions.contains(glossy))
+      return {extensions[glossy], "diffuseFactor", "diffuseTexture"};
+    return {material.value("pbrMetallicRoughness", json::object()), "baseColorFactor",
+            "baseColorTexture"};
+  }
+
+  /// glTF 2.0, 3.9.4, and KHR_materials_transmission; the alpha of textures is not looked at.
+  static bool is_transparent(const json& material) {
+    const auto extensions = material.value("extensions", json());
+    const auto transmission =
+        extensions.is_object() ? extensions.value("KHR_materials_transmission", json()) : json();
+    if (transmission.is_object() && number_of(transmission, "transmissionFactor", 0) > 0)
+      return true;
+    const auto rgba = colours_of(material).rgba();
+    const double alpha = rgba ? (*rgba)[3] : 1;
+    constexpr double usual_cutoff = 0.5;
+    const auto mode = material.value("alphaMode", json());
+    return (mode == "BLEND" && alpha < 1) ||
+           (mode == "MASK" && alpha < number_of(material, "alphaCutoff", usual_cutoff));
+  }
+
   FileMaterial read_material(const json& material) {
     FileMaterial read;
     read.name = material_names_(name_of(material).empty() ? "material" : name_of(material));
-    auto colours = material.value("pbrMetallicRoughness", json::object());
-    const char* factor = "baseColorFactor";
-    const char* texture = "baseColorTexture";
-    const auto extensions = material.value("extensions", json::object());
-    if (const char* glossy = "KHR_materials_pbrSpecularGlossiness";
-        extensions.is_object() && extensions.contains(glossy)) {
-      colours = extensions[glossy];
-      factor = "diffuseFactor";
-      texture = "diffuseTexture";
-    }
-    if (colours.is_object() && colours.contains(texture)) {
+    const auto colours = colours_of(material);
+    if (colours.members.is_object() && colours.members.contains(colours.texture)) {
       faces_.notes().count("materials are coloured by a texture: their reflectance is the study's");
-    } else if (const auto rgba =
-                   colours.is_object() ? numbers_of(colours, factor, 4) : std::nullopt) {
+    } else if (const auto rgba = colours.rgba()) {
       if (!read.set_diffuse({(*rgba)[0], (*rgba)[1], (*rgba)[2]}))
         faces_.notes().count("colours outside [0, 1] ignored");
     }

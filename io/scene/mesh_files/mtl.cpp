@@ -15,6 +15,7 @@ namespace {
 /// One material as it stands in the library, before its statements are weighed.
 struct Entry {
   std::optional<std::array<double, 3>> diffuse, specular;
+  std::optional<double> dissolve, transparency;  // d = 1 - Tr
   double illumination_model = 0;
   bool glows = false;
 };
@@ -32,10 +33,11 @@ class LibraryReader {
   LibraryReader(const std::string& path, NoteCounter& notes)
       : path_(path), text_(read_text_file(path)), words_(text_), notes_(notes) {}
 
-  std::map<std::string, FileMaterial> read() {
+  std::map<std::string, LibraryMaterial> read() {
     for (; !words_.at_end(); words_.go_to_next_line()) read_statement(words_.next());
-    std::map<std::string, FileMaterial> materials;
-    for (const auto& [name, entry] : entries_) materials[name] = weighed(name, entry);
+    std::map<std::string, LibraryMaterial> materials;
+    for (const auto& [name, entry] : entries_)
+      materials[name] = {weighed(name, entry), is_transparent(entry)};
     return materials;
   }
 
@@ -46,7 +48,9 @@ class LibraryReader {
     if (keyword == "Kd") current_->diffuse = colour();
     if (keyword == "Ks") current_->specular = colour();
     if (keyword == "Ke") current_->glows = mean(colour(largest_glow).value_or(black)) > 0;
-    if (keyword == "map_Kd") notes_.count("textures of materials ignored");
+    if (keyword == "d") current_->dissolve = dissolve();
+    if (keyword == "Tr") current_->transparency = finite_number(words_.next());
+    if (keyword == "map_Kd" || keyword == "map_d") notes_.count("textures of materials ignored");
     if (keyword == "illum") current_->illumination_model = number(words_.next());
   }
 
@@ -66,6 +70,17 @@ class LibraryReader {
       return rgb;
     notes_.count("colours outside [0, 1] ignored");
     return std::nullopt;
+  }
+
+  /// `share`, or `-halo share`: seen along the normal. For looks only, so that no other word hurts.
+  std::optional<double> dissolve() {
+    const auto first = words_.next();
+    return finite_number(first == "-halo" ? words_.next() : first);
+  }
+
+  /// Some programs write both, and Tr with the meaning of d.
+  static bool is_transparent(const Entry& entry) {
+    return entry.dissolve ? *entry.dissolve < 1 : entry.transparency.value_or(0) > 0;
   }
 
   double number(std::string_view word) const {
@@ -103,8 +118,8 @@ class LibraryReader {
 
 }  // namespace
 
-std::map<std::string, FileMaterial> read_material_library(const std::string& path,
-                                                          NoteCounter& notes) {
+std::map<std::string, LibraryMaterial> read_material_library(const std::string& path,
+                                                             NoteCounter& notes) {
   return LibraryReader(path, notes).read();
 }
 

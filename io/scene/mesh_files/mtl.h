@@ -11,6 +11,12 @@
 
 namespace sunload {
 
+/// A material of a library.
+struct LibraryMaterial {
+  FileMaterial material;
+  bool is_transparent = false;  ///< d below 1, or without d Tr above 0: not taken
+};
+
 /// Materials by name, of what the library states and nothing else.
 ///
 /// Diffuse reflectance: mean of Kd. Mirror reflectance: mean of Ks, only where `illum` asks
@@ -19,7 +25,7 @@ namespace sunload {
 /// Materials with Ke `glow`: Ke has no unit, so the power is the study's to tell.
 /// Throws InputError for broken numbers.
 /// Reference: Wavefront (1995), Advanced Visualizer manual, appendix B2.
-std::map<std::string, FileMaterial> read_material_library(const std::string& path,
-                                                          NoteCounter& notes);
+std::map<std::string, LibraryMaterial> read_material_library(const std::string& path,
+                                                             NoteCounter& notes);
 
 }  // namespace sunload

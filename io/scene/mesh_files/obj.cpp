@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "io/scene/base/from_file.h"
+#include "io/scene/base/transparent_materials.h"
 #include "io/scene/base/words.h"
 #include "io/scene/mesh_files/mtl.h"
 
@@ -230,13 +231,17 @@ class ObjReader {
 
   /// At the end, since a library may come after its use.
   void resolve_materials() {
-    for (auto& material : model_.materials) {
+    TransparentMaterials transparent;
+    for (std::size_t m = 0; m < model_.materials.size(); ++m) {
+      auto& material = model_.materials[m];
       if (const auto found = library_.find(material.name); found != library_.end()) {
-        material = found->second;
+        material = found->second.material;
+        if (found->second.is_transparent) transparent.add(make_id<MaterialId>(m));
       } else {
         notes_.count("materials without a definition have a name only");
       }
     }
+    transparent.count_used(model_, notes_);
   }
 
   std::string path_;
@@ -251,7 +256,7 @@ class ObjReader {
   std::unordered_map<std::string, ObjectId> objects_;
   std::unordered_map<std::string, MaterialId> materials_;
   std::string object_name_;
-  std::map<std::string, FileMaterial> library_;
+  std::map<std::string, LibraryMaterial> library_;
   ObjectId object_;
   bool has_object_name_ = false;
   MaterialId material_;

@@ -63,7 +63,7 @@ MaterialId VrmlModel::material(const void* node, int index, const VrmlMaterial& 
                     "scene.emission_scale_w)",
                     material.name, material.emitted_power_w));
   }
-  if (colours.transparency > 0) notes_.count("transparencies of materials ignored");
+  if (colours.transparency > 0) transparent_.add(entry->second);
   model_.materials.push_back(std::move(material));
   return entry->second;
 }
@@ -128,6 +128,7 @@ PolygonModel VrmlModel::finish() {
     notes_.say(fmt::format(
         "coordinates are read in single precision: steps of {:.2g} m at {:.0f} m", step, largest_));
   }
+  transparent_.count_used(model_, notes_);
   for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
   return std::move(model_);
 }

@@ -11,6 +11,7 @@
 #include "geo/mesh/affine.h"
 #include "geo/mesh/mesh.h"
 #include "io/scene/base/from_file.h"
+#include "io/scene/base/transparent_materials.h"
 #include "io/scene/vrml/shapes.h"
 
 namespace sunload {
@@ -59,6 +60,7 @@ class VrmlModel {
   SceneFromFile scene_from_file_;
   PolygonModel model_;
   NoteCounter notes_;
+  TransparentMaterials transparent_;
   std::string stem_;
   std::vector<VrmlPlace> places_;
   ObjectId nameless_;

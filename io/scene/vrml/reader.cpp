@@ -315,7 +315,9 @@ class VrmlWalk {
       if (field.getNum() == 0) return {};
       return colour(field[std::min(index, field.getNum() - 1)]);
     };
-    const double transparency = node.transparency.getNum() > 0 ? node.transparency[0] : 0;
+    const int transparencies = node.transparency.getNum();
+    const double transparency =
+        transparencies > 0 ? node.transparency[std::min(index, transparencies - 1)] : 0;
     return model_.material(&node, index,
                            {text_of(node.getName()), entry(node.diffuseColor),
                             entry(node.specularColor), entry(node.emissiveColor), transparency});

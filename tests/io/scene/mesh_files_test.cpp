@@ -237,6 +237,25 @@ TEST(SceneGltf, NodesMaterialsAndAxes) {
   EXPECT_EQ(broken_arrays(model), "");
 }
 
+TEST(SceneGltf, TransparenciesAreTold) {
+  const auto is_told = [](const std::string& alpha, const std::string& more) {
+    auto text = gltf(R"({"mesh": 0})");
+    const std::string opaque = "0.6, 0.3, 0, 1]}";
+    text.replace(text.find(opaque), opaque.size(), "0.6, 0.3, 0, " + alpha + "]}" + more);
+    return has_note(read_text("t.gltf", text), "1 transparencies of materials ignored");
+  };
+  EXPECT_TRUE(is_told("0.25", R"(, "alphaMode": "BLEND")"));
+  EXPECT_TRUE(is_told("0.4", R"(, "alphaMode": "MASK")"));
+  EXPECT_TRUE(is_told("0.6", R"(, "alphaMode": "MASK", "alphaCutoff": 0.7)"));
+  const std::string transmission =
+      R"(, "extensions": {"KHR_materials_transmission": {"transmissionFactor": )";
+  EXPECT_TRUE(is_told("1", transmission + "0.9}}"));
+  EXPECT_FALSE(is_told("1", transmission + "0}}"));
+  EXPECT_FALSE(is_told("0.25", ""));  // opaque unless it says otherwise
+  EXPECT_FALSE(is_told("1", R"(, "alphaMode": "BLEND")"));
+  EXPECT_FALSE(is_told("0.6", R"(, "alphaMode": "MASK")"));
+}
+
 TEST(SceneGltf, StripsAndFansAndContainers) {
   const std::string node = R"({"mesh": 0})";
   EXPECT_EQ(read_text("s.gltf", gltf(node, "\"mode\": 5")).polygon_count(), 2u);

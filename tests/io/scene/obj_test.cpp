@@ -94,6 +94,20 @@ TEST(SceneObj, MaterialsAreWhatTheLibraryStates) {
   EXPECT_TRUE(has_note(model, "1 materials without a definition"));
 }
 
+TEST(SceneObj, TransparenciesAreTold) {
+  write_text("t.mtl",
+             "newmtl pane\nd 0.3\nnewmtl halo\nd -halo 0.5\nnewmtl veil\nTr 0.2\nnewmtl wall\nd "
+             "1.0\nTr 1.0\nnewmtl open\nTr 0\nd nothing\nnewmtl unused\nd 0\n");
+  std::string text = "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (const std::string name : {"pane", "halo", "veil", "wall", "open", "pane"})
+    text += "usemtl " + name + "\nf 1 2 3\n";
+  EXPECT_TRUE(has_note(read_text("t.obj", text + "usemtl unused\n"),
+                       "3 transparencies of materials ignored"));
+  EXPECT_FALSE(has_note(read_text("t.obj", text.substr(0, text.find("usemtl")) +
+                                               "usemtl wall\nf 1 2 3\nusemtl open\nf 1 2 3\n"),
+                        "transparencies"));
+}
+
 TEST(SceneObj, RefusesWhatIsBrokenAndNamesThePlace) {
   const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   EXPECT_EQ(refusal("b.obj", head + "f 1 2 4\n").substr(0, 12), "b.obj:4:7: v");

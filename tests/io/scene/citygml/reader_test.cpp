@@ -422,19 +422,23 @@ TEST(SceneCityGml, MaterialsByTarget) {
   const auto target = [](const std::string& id) { return element("app:target", "#" + id); };
   const auto model = read_text(
       "colours.gml",
-      city_gml(appearance("winter", material("snow", "0.9 0.9 0.9", target("a") + target("c"))) +
-               appearance("summer", material("brick", "0.4 0.2 0.3", target("a")) +
-                                        material("paint", "0.5 0.5 0.5", target("all")) +
-                                        material("back", "0.1 0.1 0.1", target("b"),
-                                                 element("app:isFront", "false")) +
-                                        element("app:surfaceDataMember",
-                                                element("app:ParameterizedTexture", ""))) +
-               building("b", element("bldg:lod2MultiSurface",
-                                     element("gml:MultiSurface",
-                                             surface_members({polygon(triangle, "a"),
-                                                              polygon(other_triangle, "b"),
-                                                              polygon("0 0 9 1 0 9 0 1 9", "c")}),
-                                             "gml:id=\"all\"")))));
+      city_gml(
+          appearance("winter", material("snow", "0.9 0.9 0.9", target("a") + target("c"))) +
+          appearance(
+              "summer",
+              material("brick", "0.4 0.2 0.3", target("a"), element("app:transparency", " 0.25 ")) +
+                  material("glass", "0.4 0.4 0.4", target("nobody"),
+                           element("app:transparency", "0.9")) +
+                  material("paint", "0.5 0.5 0.5", target("all"),
+                           element("app:transparency", "0.0")) +
+                  material("back", "0.1 0.1 0.1", target("b"), element("app:isFront", "false")) +
+                  element("app:surfaceDataMember", element("app:ParameterizedTexture", ""))) +
+          building("b", element("bldg:lod2MultiSurface",
+                                element("gml:MultiSurface",
+                                        surface_members({polygon(triangle, "a"),
+                                                         polygon(other_triangle, "b"),
+                                                         polygon("0 0 9 1 0 9 0 1 9", "c")}),
+                                        "gml:id=\"all\"")))));
   ASSERT_EQ(model.polygon_count(), 3u);
   const auto name = [&](std::size_t p) {
     return model.materials[model.facts[p].material.index()].name;
@@ -446,6 +450,7 @@ TEST(SceneCityGml, MaterialsByTarget) {
   EXPECT_TRUE(has_note(model, "material theme 'summer' taken"));
   EXPECT_TRUE(has_note(model, "1 textures ignored"));
   EXPECT_TRUE(has_note(model, "1 materials of backs"));
+  EXPECT_TRUE(has_note(model, "1 transparencies of materials ignored"));
 }
 
 }  // namespace

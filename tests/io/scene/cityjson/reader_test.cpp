@@ -230,6 +230,20 @@ TEST(SceneCityJson, Materials) {
   EXPECT_TRUE(has_note(model, "1 surfaces name a material that is not there"));
 }
 
+TEST(SceneCityJson, TransparenciesAreTold) {
+  const auto read = [&](const std::string& values) {
+    return read_text("t.json",
+                     city(object("b", "Building",
+                                 surfaces("2", "[[[0,1,2]],[[0,2,3]]]",
+                                          R"("material":{"a":{"values":)" + values + "}}")),
+                          R"("appearance":{"materials":[{"name":"pane","transparency":0.5},
+                          {"name":"wall","transparency":0.0},{"name":"veil","transparency":1}]})"));
+  };
+  EXPECT_TRUE(has_note(read("[0,1]"), "1 transparencies of materials ignored"));
+  EXPECT_TRUE(has_note(read("[0,2]"), "2 transparencies of materials ignored"));
+  EXPECT_FALSE(has_note(read("[1,1]"), "transparencies"));
+}
+
 const std::string templates =
     R"("geometry-templates":{"templates":[{"type":"MultiPoint","lod":"1","boundaries":[0]},
     {"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]},

@@ -136,6 +136,15 @@ TEST(SceneVrml, ElevationGridLooksUp) {
             std::string::npos);
 }
 
+TEST(SceneVrml, TransparenciesAreTold) {
+  const auto shape = [](const std::string& material) {
+    return "Shape { appearance Appearance { material " + material + " } " + triangle + "} }\n";
+  };
+  const auto model = read_text("t.wrl", vrml97 + shape("DEF pane Material { transparency 0.5 }") +
+                                            shape("USE pane") + shape("Material { }"));
+  EXPECT_TRUE(has_note(model, "1 transparencies of materials ignored"));
+}
+
 TEST(SceneVrml, MaterialsByNode) {
   const std::string text =
       vrml97 +
