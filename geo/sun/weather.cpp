@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
@@ -112,13 +113,15 @@ Irradiance divided(const WeatherValues& values, const SunInterval& when, Weather
   const double sine = sine_of_elevation(when.sun.elevation_deg);
   const double share = when.up_s / when.length_s();
   const double outside = extraterrestrial(when.sun.distance_au);
-  const double strongest = outside * share;  // no sky adds to the sun's own beam
+  const double strongest = strongest_beam(when);
   switch (source) {
     case WeatherSource::dni_and_dhi:
       return {*values.dni, *values.dhi, 0};
     case WeatherSource::ghi_and_dhi: {
       const double beam = std::max(0.0, *values.ghi - *values.dhi);
-      return {sine > 0 ? std::min(beam / sine, strongest) : 0, *values.dhi, 0};
+      if (sine > 0 && beam / sine <= strongest) return {beam / sine, *values.dhi, 0};
+      const double dni = sine > 0 ? strongest : 0;
+      return {dni, std::max(*values.dhi, *values.ghi - dni * sine), 0};
     }
     case WeatherSource::ghi_and_dni:
       return {*values.dni, std::max(0.0, *values.ghi - *values.dni * sine), 0};
@@ -139,8 +142,9 @@ Irradiance divided(const WeatherValues& values, const SunInterval& when, Weather
   contract_failed("weather has values", __FILE__, __LINE__, "source none");
 }
 
-/// Without sun all of the global irradiance is diffuse.
-double dark_dhi(const WeatherValues& values) {
+/// Without sun all of the global irradiance is diffuse, unless both DNI and DHI were measured.
+double dark_dhi(const WeatherValues& values, WeatherSource source) {
+  if (source == WeatherSource::ghi_and_dhi) return std::max(*values.dhi, *values.ghi);
   return values.dhi ? *values.dhi : values.ghi.value_or(0);
 }
 
@@ -151,7 +155,7 @@ Irradiance mean_light(const WeatherValues& values, const SunInterval& when, Weat
   if (when.up_s > 0) {
     mean = divided(values, when, source, decomposition, elevation_m);
   } else {
-    mean.dhi = dark_dhi(values);
+    mean.dhi = dark_dhi(values, source);
   }
   mean.ghi =
       values.ghi ? *values.ghi : mean.dni * sine_of_elevation(when.sun.elevation_deg) + mean.dhi;
@@ -222,6 +226,26 @@ double common_sunlit_s(const SunInterval& a, const SunInterval& b) {
 
 namespace {
 
+/// 28 February as well: typical years have no other one.
+bool is_last_of_month(const WeatherRecord& r) {
+  return !has_day(r.year, r.month, r.day + 1) || (r.month == 2 && r.day == 28);
+}
+
+/// One after the other, whole, in the order of the calendar, whatever their years are.
+bool are_twelve_months(const std::vector<WeatherRecord>& records) {
+  constexpr int months_of_a_year = 12;
+  int months = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const WeatherRecord& now = records[i];
+    const WeatherRecord* before = i > 0 ? &records[i - 1] : nullptr;
+    if (before && now.month == before->month && now.year == before->year) continue;
+    const bool follows =
+        !before || (is_last_of_month(*before) && now.month == before->month % months_of_a_year + 1);
+    if (!follows || now.day != 1 || ++months > months_of_a_year) return false;
+  }
+  return months == months_of_a_year && is_last_of_month(records.back());
+}
+
 /// A typical year may be written from any month on; all of it is of one year.
 void begin_with_january(std::vector<DatedWeather>& weather) {
   constexpr double months_s = 180 * seconds_per_day;  // rows in disorder do not go back so far
@@ -234,16 +258,26 @@ void begin_with_january(std::vector<DatedWeather>& weather) {
 
 }  // namespace
 
+bool years_follow(const std::vector<WeatherRecord>& records) {
+  return std::adjacent_find(records.begin(), records.end(),
+                            [](const WeatherRecord& before, const WeatherRecord& now) {
+                              const int later = now.month < before.month ? 1 : 0;
+                              return now.year != before.year + later;
+                            }) == records.end();
+}
+
 WeatherYears years_of(const std::vector<WeatherRecord>& records) {
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    const WeatherRecord& now = records[i];
-    if (now.year == 0) return WeatherYears::typical;
-    if (i == 0) continue;
-    const bool begins_again = now.month < records[i - 1].month;
-    const int later = now.year - records[i - 1].year;
-    if (later != (begins_again ? 1 : 0)) return WeatherYears::typical;
-  }
-  return WeatherYears::actual;
+  const bool has_no_year = std::any_of(records.begin(), records.end(),
+                                       [](const WeatherRecord& r) { return r.year == 0; });
+  const bool goes_back =
+      std::adjacent_find(records.begin(), records.end(),
+                         [](const WeatherRecord& before, const WeatherRecord& now) {
+                           return std::pair(now.year, now.month) <
+                                  std::pair(before.year, before.month);
+                         }) != records.end();
+  if (has_no_year || goes_back) return WeatherYears::typical;
+  return !years_follow(records) && are_twelve_months(records) ? WeatherYears::typical
+                                                              : WeatherYears::actual;
 }
 
 std::vector<DatedWeather> dated(const std::vector<WeatherRecord>& records,
@@ -267,6 +301,10 @@ std::size_t first_out_of_order(const std::vector<DatedWeather>& weather) {
   for (std::size_t i = 1; i < weather.size(); ++i)
     if (weather[i].begin < weather[i - 1].end - rounding_s) return i;
   return weather.size();
+}
+
+double strongest_beam(const SunInterval& when) {
+  return extraterrestrial(when.sun.distance_au) * (when.up_s / when.length_s());
 }
 
 WeatherSource source_of(const std::vector<DatedWeather>& weather) {
@@ -310,7 +348,7 @@ WeatherValues completed(const WeatherValues& values, const SunInterval& when,
   const Irradiance light = mean_light(values, when, own, decomposition, elevation_m);
   WeatherValues all = values;
   all.dni = values.dni.value_or(light.dni);
-  all.dhi = values.dhi.value_or(light.dhi);
+  all.dhi = light.dhi;  // with what no beam can have
   all.ghi = values.ghi.value_or(light.ghi);
   return all;
 }

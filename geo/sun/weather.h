@@ -32,7 +32,7 @@ using WeatherQuantity = std::optional<double> WeatherValues::*;
 
 /// One row of a weather file, in local standard time.
 struct WeatherRecord {
-  int year = 0;                   ///< 0: the format has none
+  int year = 0;                   ///< 0: the format has none, or the readers found a typical year
   int month = 1, day = 1;         ///< of the stamp, or the one before where it begins there
   double begin_s = 0, end_s = 0;  ///< since that day's midnight; may lie outside of the day
   WeatherValues values;
@@ -46,10 +46,15 @@ struct DatedWeather {
   int line = 0;
 };
 
-/// actual: one year as it was, or consecutive ones; typical: months of different years,
-/// or rows without a year.
+/// actual: as it was, in one stretch or in several with any time between them; typical: months of
+/// different years, or rows without a year.
 enum class WeatherYears { actual, typical };
+/// Typical are dates that go back, and those of twelve whole months, each of one year and of
+/// another name, whose years do not follow each other: a typical year's years may rise by chance.
 WeatherYears years_of(const std::vector<WeatherRecord>& records);
+/// Whether each record is of the year of the one before it, or of the next one where its month is
+/// an earlier one.
+bool years_follow(const std::vector<WeatherRecord>& records);
 
 /// The records in UTC: in their own years, or with the first one in `first_year`. 29 February is
 /// left out of years that have none. `offset_s`: local standard time minus UTC.
@@ -66,7 +71,7 @@ enum class Missing { refuse, interpolate, zero };
 /// Which values light is made from.
 enum class WeatherSource {
   dni_and_dhi,  ///< as measured
-  ghi_and_dhi,  ///< DNI = (GHI - DHI) / sin(elevation), at most extraterrestrial
+  ghi_and_dhi,  ///< DNI = (GHI - DHI) / sin(elevation), at most extraterrestrial: the rest is DHI
   ghi_and_dni,  ///< DHI = GHI - DNI sin(elevation), at least 0
   ghi_alone,    ///< decomposed
   none
@@ -82,6 +87,10 @@ bool is_incomplete(const WeatherValues& values, WeatherSource source);
 
 /// Models that divide global irradiance where nothing else is measured.
 enum class Decomposition { erbs, disc };
+
+/// The sun's own beam outside of the atmosphere, to which no sky adds, as a mean over an interval
+/// in which the sun may be up for a part [W m-2].
+double strongest_beam(const SunInterval& when);
 
 /// A record with all three quantities: what it lacks follows from what it has (any source but
 /// `none`) and its sun, as it does in a file without that column.

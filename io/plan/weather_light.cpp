@@ -3,13 +3,13 @@
 #include "io/plan/weather_light.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "geo/base/units.h"
+#include "io/plan/weather_words.h"
 
 namespace sunload {
 
@@ -25,66 +25,6 @@ constexpr double telling_share = 0.5;
 std::string offset_words(double offset_s) {
   const auto minutes = static_cast<int>(std::lround(std::abs(offset_s) / seconds_per_minute));
   return fmt::format("{}{:02}:{:02}", offset_s < 0 ? '-' : '+', minutes / 60, minutes % 60);
-}
-
-const char* source_words(WeatherSource source, Decomposition decomposition) {
-  switch (source) {
-    case WeatherSource::dni_and_dhi:
-      return "DNI and DHI as they are";
-    case WeatherSource::ghi_and_dhi:
-      return "DHI as it is, DNI = (GHI - DHI) / sin(elevation)";
-    case WeatherSource::ghi_and_dni:
-      return "DNI as it is, DHI = GHI - DNI sin(elevation)";
-    case WeatherSource::ghi_alone:
-      return decomposition == Decomposition::erbs
-                 ? "GHI divided into DNI and DHI after Erbs, Klein & Duffie (1982)"
-                 : "GHI divided into DNI and DHI by DISC, Maxwell (1987)";
-    case WeatherSource::none:
-      break;
-  }
-  return "nothing";
-}
-
-/// What a record lacks that others have, and how it follows.
-std::string completed_words(WeatherSource has, Decomposition decomposition) {
-  switch (has) {
-    case WeatherSource::dni_and_dhi:
-      return "have no GHI: it is DNI sin(elevation) + DHI";
-    case WeatherSource::ghi_and_dhi:
-      return "have no DNI: it is (GHI - DHI) / sin(elevation)";
-    case WeatherSource::ghi_and_dni:
-      return "have no DHI: it is GHI - DNI sin(elevation)";
-    case WeatherSource::ghi_alone:
-      return std::string("have GHI alone: ") + source_words(has, decomposition);
-    case WeatherSource::none:
-      break;
-  }
-  return "have nothing";
-}
-
-const char* name_of(WeatherQuantity quantity) {
-  if (quantity == &WeatherValues::dni) return "DNI";
-  return quantity == &WeatherValues::dhi ? "DHI" : "GHI";
-}
-
-/// "DNI 12, DHI 3"
-std::string lacking_words(const std::vector<DatedWeather>& weather, WeatherSource source) {
-  std::vector<std::string> words;
-  for (const WeatherQuantity quantity : needed(source)) {
-    const auto lacking = std::count_if(weather.begin(), weather.end(), [&](const DatedWeather& w) {
-      return !(w.values.*quantity).has_value();
-    });
-    if (lacking > 0) words.push_back(fmt::format("{} {}", name_of(quantity), lacking));
-  }
-  return fmt::format("{}", fmt::join(words, ", "));
-}
-
-/// "DNI and DHI are"
-std::string missing_words(const WeatherValues& values, WeatherSource source) {
-  std::vector<std::string> names;
-  for (const WeatherQuantity quantity : needed(source))
-    if (!(values.*quantity).has_value()) names.push_back(name_of(quantity));
-  return fmt::format("{} {}", fmt::join(names, " and "), names.size() == 1 ? "is" : "are");
 }
 
 /// The records that overlap an interval of the path. What lies between its days is nobody's.
@@ -240,6 +180,7 @@ std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
           ? path
           : sun_path(steps_of(used), site_, study_.sun.refraction, study_.sun.ut1_utc);
   say_closure(as_read, weather_path);
+  say_doubts(as_read, weather_path);
   const WeatherLight light =
       with_sun(used, weather_path, source_, study_.light.decomposition, site_.elevation_m);
   if (light.dark_beams > 0)
@@ -468,6 +409,12 @@ void StudyWeather::say_closure(const std::vector<DatedWeather>& used, const SunP
         c.best_rms, c.rms));
 }
 
+void StudyWeather::say_doubts(const std::vector<DatedWeather>& used, const SunPath& path) {
+  const WeatherSayings said = doubt_words(doubts_of(used, path), file_.path);
+  words_.insert(words_.end(), said.notes.begin(), said.notes.end());
+  warnings_.insert(warnings_.end(), said.warnings.begin(), said.warnings.end());
+}
+
 void StudyWeather::refuse_uncovered(const SunInterval& when) const {
   const int year = calendar_from_utc(when.begin).year;
   const CivilTime date = calendar_from_utc(when.begin + offset_s(year));
@@ -486,7 +433,7 @@ void StudyWeather::refuse_uncovered(const SunInterval& when) const {
       study_.period.where,
       fmt::format("the weather does not cover {} to {}", iso_utc(when.begin), iso_utc(when.end)),
       why,
-      years_ == WeatherYears::actual ? "choose dates within that, or year_of: weather"
+      years_ == WeatherYears::actual ? "choose dates that have rows, or year_of: weather"
                                      : "choose other dates, or year_of: weather");
 }
 

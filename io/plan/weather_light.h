@@ -57,6 +57,7 @@ class StudyWeather {
   std::map<WeatherSource, std::size_t> complete(std::vector<DatedWeather>& weather) const;
   void say_file();
   void say_closure(const std::vector<DatedWeather>& used, const SunPath& path);
+  void say_doubts(const std::vector<DatedWeather>& used, const SunPath& path);
   void say_filled(const FilledWeather& gaps);
   void say_missing_days(const std::vector<WeatherHole>& holes);
   std::string in_file_time(UnixTime time) const;

@@ -209,6 +209,7 @@ WeatherFile read_epw(const WeatherText& text) {
   expect_day(text, file.records.back(), header.last_day, "last");
   if (!hours.is_hour_whole() || file.records.back().end_s < seconds_per_day)
     text.fail(text.line_count(), "the last day is not whole", "", "is the file cut off?");
+  forget_years_that_do_not_follow(file.records);
   irradiance.add_notes(file.notes);
   return file;
 }

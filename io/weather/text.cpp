@@ -8,6 +8,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
@@ -157,6 +158,32 @@ double usual_step_s(const WeatherText& text, const std::vector<DatedWeather>& in
   return most == counts.end() ? seconds_per_hour : most->first;
 }
 
+void put_on_the_day_before(WeatherRecord& r) {
+  const int year = r.year == 0 ? leap_year : r.year;
+  const CivilTime before =
+      calendar_from_utc(utc_from_calendar({year, r.month, r.day, 0, 0, 0}) - seconds_per_day);
+  if (r.year != 0) r.year = before.year;
+  r.month = before.month;
+  r.day = before.day;
+  r.begin_s += seconds_per_day;
+  r.end_s += seconds_per_day;
+}
+
+/// What ends at midnight is of the day before, and of its year; but for the first row, with which a
+/// year may begin that is written from 00:00 to 23:00.
+WeatherYears years_by_stamp(std::vector<WeatherRecord> instants, Stamp stamp) {
+  if (stamp == Stamp::end)
+    for (std::size_t i = 1; i < instants.size(); ++i)
+      if (instants[i].begin_s == 0) put_on_the_day_before(instants[i]);
+  return years_of(instants);
+}
+
+/// What ends with the 1st of a month is of the month before: a typical year ends with 31 December.
+void begin_in_typical_months(std::vector<WeatherRecord>& records) {
+  for (auto& r : records)
+    if (r.day == 1 && r.month != 3 && r.end_s <= 0) put_on_the_day_before(r);
+}
+
 /// Records that begin on the day before 1 March get its date: which one it is depends on the year,
 /// and weather may be written as another. The 29th is it where rows of that day come before.
 void begin_in_february(std::vector<WeatherRecord>& records) {
@@ -184,8 +211,10 @@ std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector
     records.push_back({row.stamp.year, row.stamp.month, row.stamp.day, row.stamp.second,
                        row.stamp.second, row.values, row.line});
   // Rows of a typical year follow each other in a year that has all days.
-  const bool is_typical = years_of(records) == WeatherYears::typical;
+  const bool is_typical = years_by_stamp(records, stamp) == WeatherYears::typical;
   const std::optional<int> year = is_typical ? std::optional(leap_year) : std::nullopt;
+  if (is_typical)
+    for (auto& r : records) r.year = 0;
   const double step = usual_step_s(text, dated(records, year, 0));
   const double before = stamp == Stamp::start ? 0 : stamp == Stamp::middle ? step / 2 : step;
   for (auto& r : records) {
@@ -193,6 +222,7 @@ std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector
     r.end_s = r.begin_s + step;
   }
   begin_in_february(records);
+  if (is_typical) begin_in_typical_months(records);
   const auto placed = dated(records, year, 0);
   const auto wrong = first_out_of_order(placed);
   if (wrong < placed.size())
@@ -200,6 +230,14 @@ std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector
               "this row begins before the row before it ends",
               fmt::format("most rows are {} s apart", step), "bring all rows to one step");
   return records;
+}
+
+void forget_years_that_do_not_follow(std::vector<WeatherRecord>& records) {
+  if (years_follow(records)) return;
+  auto typical = records;
+  for (auto& r : typical) r.year = 0;
+  const auto placed = dated(typical, leap_year, 0);
+  if (first_out_of_order(placed) == placed.size()) records = std::move(typical);
 }
 
 }  // namespace sunload

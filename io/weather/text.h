@@ -84,9 +84,13 @@ struct StampedRow {
 /// Throws InputError for a day that no year has.
 void check_day(const WeatherText& text, std::size_t line, const RowStamp& stamp);
 
-/// Rows as stretches of the step that most of them are apart.
+/// Rows as stretches of the step that most of them are apart; of typical years without a year.
 /// Throws InputError for rows that do not follow one another.
 std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector<StampedRow>& rows,
                                       Stamp stamp);
+
+/// For formats of typical years, which may have a part of one: years that do not follow each other
+/// become 0, unless dates come twice then.
+void forget_years_that_do_not_follow(std::vector<WeatherRecord>& records);
 
 }  // namespace sunload

@@ -108,6 +108,7 @@ WeatherFile read_tmy3(const WeatherText& text, std::optional<Stamp> stamp) {
          static_cast<int>(line)});
   }
   file.records = records_of(text, rows, stamp.value_or(Stamp::end));
+  forget_years_that_do_not_follow(file.records);
   irradiance.add_notes(file.notes);
   return file;
 }

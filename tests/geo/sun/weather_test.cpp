@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geo/base/check.h"
+#include "geo/sun/weather_doubts.h"
 
 namespace sunload {
 namespace {
@@ -50,6 +52,57 @@ TEST(WeatherYears, TypicalOnesMixYearsActualOnesFollow) {
   EXPECT_EQ(years_of(records), WeatherYears::typical);
   for (auto& r : records) r.year = 0;
   EXPECT_EQ(years_of(records), WeatherYears::typical);
+}
+
+std::vector<WeatherRecord> joined(std::vector<WeatherRecord> records,
+                                  const std::vector<WeatherRecord>& more) {
+  records.insert(records.end(), more.begin(), more.end());
+  return records;
+}
+
+/// However long nobody measured: a year later, in the same month, in an earlier month years later.
+TEST(WeatherYears, CampaignsAreOfTheirYears) {
+  const auto june = hours(2022, 6, 1, 48, {});
+  for (const auto& later : {hours(2023, 7, 1, 48, {}), hours(2023, 6, 1, 48, {}),
+                            hours(2031, 1, 5, 48, {}), hours(2022, 9, 1, 48, {})}) {
+    const auto records = joined(june, later);
+    ASSERT_EQ(years_of(records), WeatherYears::actual) << later.front().year;
+    const auto own = dated(records, {}, 0);
+    EXPECT_EQ(own.back().begin, utc_from_calendar({later.back().year, later.back().month,
+                                                   later.back().day, 23, 0, 0}));
+    EXPECT_EQ(first_out_of_order(own), own.size());
+    EXPECT_EQ(years_of(joined(later, june)), WeatherYears::typical);
+  }
+}
+
+/// Days of whole months, from `first` on, of a leap year and of years later by those of `later`.
+std::vector<WeatherRecord> twelve_months(int first, const std::vector<int>& later,
+                                         int months = 12) {
+  constexpr std::array days{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  std::vector<WeatherRecord> records;
+  int year = 2000;
+  for (int k = 0; k < months; ++k) {
+    const int month = (first - 1 + k) % 12 + 1;
+    year += later[static_cast<std::size_t>(k)];
+    for (int day = 1; day <= days[static_cast<std::size_t>(month - 1)]; ++day)
+      records.push_back({year, month, day, 0, seconds_per_day, {}, day});
+  }
+  return records;
+}
+
+TEST(WeatherYears, TwelveWholeMonthsOfRisingYearsAreTypical) {
+  const std::vector<int> rising{0, 1, 0, 1, 0, 2, 0, 0, 1, 0, 0, 3};
+  EXPECT_EQ(years_of(twelve_months(1, rising)), WeatherYears::typical);
+  EXPECT_EQ(years_of(twelve_months(7, rising)), WeatherYears::typical);
+  EXPECT_EQ(years_of(twelve_months(1, std::vector(12, 0))), WeatherYears::actual);
+  EXPECT_EQ(years_of(twelve_months(7, {0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0})), WeatherYears::actual);
+  EXPECT_EQ(years_of(twelve_months(1, rising, 11)), WeatherYears::actual);
+  auto cut = twelve_months(1, rising);
+  cut.pop_back();
+  EXPECT_EQ(years_of(cut), WeatherYears::actual) << "30 days of December";
+  auto thirteen = twelve_months(1, rising);
+  thirteen = joined(thirteen, hours(2020, 1, 1, 24, {}));
+  EXPECT_EQ(years_of(thirteen), WeatherYears::actual);
 }
 
 // As it comes from the south: from July to June.
@@ -153,8 +206,67 @@ TEST(SunnyWeather, TwoOfThreeQuantitiesGiveTheThird) {
     const double most =
         extraterrestrial(path[i].sun.distance_au) * path[i].up_s / path[i].length_s();
     EXPECT_NEAR(dni.intervals[i].mean.dni, std::min(all.intervals[i].mean.dni, most), 1e-9);
+    if (all.intervals[i].mean.dni <= most) {
+      EXPECT_EQ(dni.intervals[i].mean.dhi, 80) << i;
+    }
     EXPECT_NEAR(dhi.intervals[i].mean.dhi, 80, 1e-9);
   }
+}
+
+/// GHI is what was measured: what no beam can have comes as diffuse light, by night as well.
+TEST(SunnyWeather, OfABeamThatIsTooStrongTheRestIsDiffuse) {
+  const auto weather = dated(hours(2001, 6, 21, 24, {{}, 80, 900}), 2001, 0);
+  const auto path = path_of(weather);
+  const auto light = with_sun(weather, path, WeatherSource::ghi_and_dhi, Decomposition::erbs, 0);
+  const WeatherDoubts doubts = doubts_of(weather, path);
+  std::size_t records = 0;
+  double moved_wh = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const auto& [dni, dhi, ghi] = light.intervals[i].mean;
+    EXPECT_EQ(ghi, 900);
+    EXPECT_NEAR(dni * std::max(0.0, std::sin(radians(path[i].sun.elevation_deg))) + dhi, 900, 1e-9);
+    EXPECT_LE(dni, strongest_beam(path[i]));
+    if (dhi <= 80) continue;
+    ++records;
+    moved_wh += dhi - 80;
+  }
+  EXPECT_GT(records, 12u);
+  EXPECT_LT(records, 24u);
+  EXPECT_EQ(doubts.beam_by_difference.records, records);
+  EXPECT_NEAR(doubts.beam_by_difference.wh_m2, moved_wh, 1e-6);
+  EXPECT_NEAR(doubts.ghi_wh_m2, 24 * 900, 1e-9);
+  EXPECT_EQ(doubts.beam_by_difference.line, 1);
+}
+
+TEST(WeatherDoubts, CountWhatContradictsGlobalIrradianceAndTheSun) {
+  auto weather = dated(hours(2001, 6, 21, 24, {{}, 90, 60}), 2001, 0);
+  const auto path = path_of(weather);
+  EXPECT_EQ(doubts_of(weather, path).dhi_above_ghi.records, 24u);
+  EXPECT_NEAR(doubts_of(weather, path).dhi_above_ghi.wh_m2, 24 * 30, 1e-9);
+  for (auto& w : weather) w.values = {700, {}, 100};
+  const WeatherDoubt beam = doubts_of(weather, path).beam_above_ghi;
+  double gained_wh = 0;
+  for (const auto& light :
+       with_sun(weather, path, WeatherSource::ghi_and_dni, Decomposition::erbs, 0).intervals) {
+    const double sine = std::max(0.0, std::sin(radians(light.when.sun.elevation_deg)));
+    gained_wh += light.mean.dni * sine + light.mean.dhi - 100;
+  }
+  EXPECT_GT(beam.records, 8u);
+  EXPECT_NEAR(beam.wh_m2, gained_wh, 1e-6);
+  // The sun is far from the earth in June.
+  for (auto& w : weather) w.values = {1300, 50, {}};
+  EXPECT_EQ(doubts_of(weather, path).dni.records, 0u);
+  weather[12].values.dni = 1330;
+  const WeatherDoubt dni = doubts_of(weather, path).dni;
+  EXPECT_EQ(dni.records, 1u);
+  EXPECT_EQ(dni.line, 13);
+  EXPECT_EQ(dni.is, 1330);
+  EXPECT_NEAR(dni.at_most, 1317, 3);
+  // Those with all three are the closure's.
+  for (auto& w : weather) w.values = {700, 90, 60};
+  const WeatherDoubts all = doubts_of(weather, path);
+  EXPECT_EQ(all.beam_by_difference.records + all.dhi_above_ghi.records + all.beam_above_ghi.records,
+            0u);
 }
 
 /// Bit by bit what a file has that lacks the column throughout, at night and at sunrise, too.

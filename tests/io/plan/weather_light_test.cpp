@@ -277,7 +277,7 @@ TEST(WeatherLight, RecordsThatHaveTwoOfThreeQuantitiesLackNothing) {
            {"250,,300", "71 of 72 records have no DHI: it is GHI - DNI sin(elevation)"},
            {",,300", "71 of 72 records have GHI alone: GHI divided into DNI and DHI after Erbs"}}) {
     const auto whole = series_of_two(values, values, 0, 0);
-    EXPECT_TRUE(whole.notes.empty());
+    EXPECT_FALSE(tells(whole.notes, "of 72 records"));
     for (const char* missing : {"", ", missing: interpolate", ", missing: zero"}) {
       const auto mixed = series_of_two(values, "200,90,260", 12, 13, missing);
       ASSERT_EQ(mixed.intervals.size(), 72u);
@@ -316,7 +316,7 @@ TEST(WeatherLight, SourceIsThatOfTheRecordsOfThePeriod) {
   const auto light = series_of(
       weather_study("timezone: UTC", "days: [2026-06-21]", "weather: two.csv, stamp: start"));
   EXPECT_TRUE(tells(light.weather, "DHI as it is, DNI = (GHI - DHI) / sin(elevation)"));
-  EXPECT_TRUE(light.notes.empty());
+  EXPECT_FALSE(tells(light.notes, "of 24 records"));
   // Where it has nothing, other days tell what is filled.
   write_text("two.csv", csv_of_two("200,90,", ",,", 20, 50));
   const auto filled =
@@ -438,6 +438,76 @@ TEST(WeatherLight, WholeDaysThatAreMissingAreToldInAWarning) {
   EXPECT_TRUE(tells(series.notes,
                     "2 whole days have no rows, from 2026-06-20 14:00 +01:00 to 2026-06-23 08:00 "
                     "+01:00 (line 21); they are no part of the period"));
+}
+
+/// Ten days of June in one year and in the next.
+TEST(WeatherLight, CampaignsOfYearsServeForTheirDatesOnly) {
+  for (const int month : {6, 7}) {
+    std::string text = roof + "time,dni_w_m2,dhi_w_m2\n";
+    for (int h = 0; h < 480; ++h)
+      text += fmt::format("{}-{:02}-{:02}T{:02}:00,{},40\n", h < 240 ? 2022 : 2023,
+                          h < 240 ? 6 : month, 1 + h % 240 / 24, h % 24, h < 240 ? 100 : 300);
+    write_text("campaigns.csv", text);
+    const auto of = [](const std::string& date) {
+      return weather_study("timezone: '+01:00'", "days: [" + date + "]",
+                           "weather: campaigns.csv, stamp: start");
+    };
+    EXPECT_EQ(series_of(of("2022-06-05")).intervals[12].mean.dni, 100);
+    const auto later = series_of(of(fmt::format("2023-{:02}-05", month)));
+    EXPECT_EQ(later.intervals[12].mean.dni, 300);
+    EXPECT_TRUE(tells(later.weather, "years 2022 to 2023"));
+    for (const char* date : {"2022-08-05", "2023-05-05", "2031-06-05", "2022-06-11"}) {
+      const auto why = refused(of(date));
+      EXPECT_NE(why.find("the weather does not cover"), std::string::npos) << date << why;
+    }
+    const auto own = series_of(weather_study("timezone: '+01:00'", "year_of: weather",
+                                             "weather: campaigns.csv, stamp: start"));
+    EXPECT_EQ(iso_utc(own.intervals.back().when.end),
+              fmt::format("2023-{:02}-10T23:00:00Z", month));
+    EXPECT_TRUE(tells(own.notes, "whole days have no rows, from 2022-06-11 00:00"));
+  }
+}
+
+/// Light of a day of hours on level ground [Wh m-2].
+double horizontal_wh(const LightSeries& series) {
+  double sum = 0;
+  for (const auto& i : series.intervals)
+    sum += i.mean.dni * std::max(0.0, std::sin(radians(i.when.sun.elevation_deg))) + i.mean.dhi;
+  return sum;
+}
+
+LightSeries series_of_day(const std::string& columns, const std::string& values) {
+  write_text("day.csv", csv_day("2026-06-21", values, columns, roof));
+  return series_of(weather_study("", "year_of: weather", "weather: day.csv, stamp: end"));
+}
+
+TEST(WeatherLight, QuantitiesThatContradictEachOtherAreToldWithTheirAmount) {
+  const auto beam = series_of_day("ghi,dhi", "700,50");
+  EXPECT_NEAR(horizontal_wh(beam), 24 * 700, 1e-6);
+  EXPECT_TRUE(tells(beam.notes, "records have GHI - DHI above the sun's own beam outside of the"));
+  EXPECT_TRUE(tells(beam.notes, "are stamp and time zone of the weather right?"));
+  const auto diffuse = series_of_day("ghi,dhi", "50,100");
+  EXPECT_NEAR(horizontal_wh(diffuse), 24 * 100, 1e-6);
+  EXPECT_TRUE(tells(diffuse.notes,
+                    "24 records have DHI above GHI: 1200 Wh/m2 (100 % of GHI) more light than GHI "
+                    "has, DHI is kept; are the columns of the weather right?"));
+  const auto direct = series_of_day("ghi,dni", "50,500");
+  const auto share = fmt::format("{:.4g} Wh/m2", horizontal_wh(direct) - 24 * 50);
+  EXPECT_TRUE(tells(direct.notes, "records have DNI sin(elevation) above GHI: " + share)) << share;
+  // What is little is a note.
+  const auto little = series_of_day("ghi,dhi", "200,200.1");
+  EXPECT_TRUE(little.notes.empty());
+  EXPECT_TRUE(tells(little.weather, "24 records have DHI above GHI: 2.4 Wh/m2 (0.05 % of GHI)"));
+}
+
+TEST(WeatherLight, DniAboveTheSunsOwnIsWarnedOf) {
+  const auto series = series_of_day("dni,dhi", "1500,40");
+  EXPECT_EQ(series.intervals[12].mean.dni, 1500);
+  // Five lines of head, one of names, four rows of the dark.
+  EXPECT_TRUE(
+      tells(series.notes, "records have DNI above the sun's own outside of the atmosphere"));
+  EXPECT_TRUE(tells(series.notes, "day.csv:10 with 1500 of at most 131"));
+  EXPECT_TRUE(series_of_day("dni,dhi", "1300,40").notes.empty());
 }
 
 /// As of stations that nobody reads in the evening.

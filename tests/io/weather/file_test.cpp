@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <random>
@@ -331,6 +332,10 @@ TEST(Tmy3, StampsEndTheHourAndMonthsComeFromManyYears) {
   EXPECT_FALSE(file.records[2].values.ghi);
   const auto weather = dated(file.records, 2001, *file.offset_s);
   EXPECT_EQ(weather[2].begin, weather[1].end);
+  const auto twice = read("a.csv", tmy3_head +
+                                       "01/31/1988,23:00,0,1,2,3\n01/31/1988,24:00,0,4,5,6\n"
+                                       "01/31/1995,24:00,0,4,7,8\n");
+  EXPECT_EQ(years_of(twice.records), WeatherYears::actual) << "a typical year has each day once";
   EXPECT_EQ(read("a.csv", tmy3_head + "01/31/1988,23:00,0,1,2,3\n01/31/1988,24:00,0,4,5,6\n",
                  Stamp::start)
                 .records[0]
@@ -384,6 +389,64 @@ TEST(WeatherCsv, OffsetsMakeUtc) {
       read("a.csv", "date,time,ghi\n2026-06-21,23:00,0\n2026-06-21,24:00,0\n", Stamp::end);
   EXPECT_FALSE(plain.offset_s);
   EXPECT_EQ(plain.records[1].end_s, 86400);
+}
+
+/// Hours of days in June.
+std::string june_of(int year) {
+  std::string rows;
+  for (int h = 0; h < 48; ++h)
+    rows += fmt::format("{}-06-{:02}T{:02}:00,100\n", year, 1 + h / 24, h % 24);
+  return rows;
+}
+
+TEST(WeatherCsv, CampaignsOfTheSameMonthAreOfTheirYears) {
+  for (const Stamp stamp : {Stamp::start, Stamp::end}) {
+    const auto file = read("a.csv", "time,ghi\n" + june_of(2022) + june_of(2023), stamp);
+    EXPECT_EQ(years_of(file.records), WeatherYears::actual);
+    ASSERT_EQ(file.records.size(), 96u);
+    EXPECT_EQ(file.records[48].year, 2023);
+  }
+  const auto shuffled =
+      refused("a.csv", "time,ghi\n" + june_of(2023) + june_of(2022), Stamp::start);
+  EXPECT_NE(shuffled.find("a.csv:50: this row is not later"), std::string::npos) << shuffled;
+}
+
+/// Hours of a year whose months are of years that rise; stamps name the end.
+std::string typical_year() {
+  constexpr std::array years{1999, 1999, 2001, 2002, 2004, 2004,
+                             2005, 2008, 2010, 2011, 2013, 2014};
+  std::string rows = "time,ghi\n";
+  const UnixTime begin = utc_from_calendar({2001, 1, 1, 0, 0, 0});
+  for (int h = 1; h <= 8760; ++h) {
+    const CivilTime row = calendar_from_utc(begin + 3600. * (h - 1));
+    const int year = years[static_cast<std::size_t>(row.month - 1)];
+    const CivilTime end =
+        calendar_from_utc(utc_from_calendar({year, row.month, row.day, row.hour, 0, 0}) + 3600);
+    rows += fmt::format("{}-{:02}-{:02}T{:02}:00,{}\n", end.year, end.month, end.day, end.hour,
+                        row.month);
+  }
+  return rows;
+}
+
+/// The first of January that ends December is its last hour, whatever year is written.
+TEST(WeatherCsv, TypicalYearsOfEndStampsEndWithDecember) {
+  for (const bool is_first : {false, true}) {
+    std::string text = typical_year();
+    if (is_first) {  // as written by those who begin with 00:00
+      const auto last = text.rfind("2015-01-01T00:00");
+      const std::string row = text.substr(last);
+      text.erase(last);
+      text.insert(text.find('\n') + 1, "1999" + row.substr(4));
+    }
+    const auto file = read("a.csv", text, Stamp::end);
+    ASSERT_EQ(file.records.size(), 8760u);
+    ASSERT_EQ(years_of(file.records), WeatherYears::typical) << is_first;
+    const auto weather = dated(file.records, 2001, 0);
+    EXPECT_EQ(iso_utc(weather.front().begin), "2001-01-01T00:00:00Z");
+    EXPECT_EQ(iso_utc(weather.back().end), "2002-01-01T00:00:00Z");
+    for (const auto& w : weather)
+      EXPECT_EQ(*w.values.ghi, calendar_from_utc(w.begin).month) << iso_utc(w.begin);
+  }
 }
 
 TEST(WeatherCsv, WrongRowsAreNamed) {

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/plan/weather_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace sunload {
+
+namespace {
+
+/// What is more than this share of all GHI is no noise of instruments, nor of sunrise and sunset.
+constexpr double telling_ghi_share = 0.01;
+
+const char* quantity_name(WeatherQuantity quantity) {
+  if (quantity == &WeatherValues::dni) return "DNI";
+  return quantity == &WeatherValues::dhi ? "DHI" : "GHI";
+}
+
+/// A note, or a warning that asks for what is likely wrong.
+void add_contradiction(const WeatherDoubt& doubt, double ghi_wh_m2, const char* what,
+                       const char* taken, const char* question, WeatherSayings& sayings) {
+  if (doubt.records == 0) return;
+  const std::string share = ghi_wh_m2 > 0
+                                ? fmt::format("{:.3g} % of GHI", 100 * doubt.wh_m2 / ghi_wh_m2)
+                                : std::string("GHI has nothing");
+  const std::string text = fmt::format("{} records have {}: {:.4g} Wh/m2 ({}) {}", doubt.records,
+                                       what, doubt.wh_m2, share, taken);
+  if (doubt.wh_m2 > telling_ghi_share * ghi_wh_m2) {
+    sayings.warnings.push_back(fmt::format("weather: {}; {}", text, question));
+  } else {
+    sayings.notes.push_back(text);
+  }
+}
+
+}  // namespace
+
+std::string source_words(WeatherSource source, Decomposition decomposition) {
+  switch (source) {
+    case WeatherSource::dni_and_dhi:
+      return "DNI and DHI as they are";
+    case WeatherSource::ghi_and_dhi:
+      return "DHI as it is, DNI = (GHI - DHI) / sin(elevation)";
+    case WeatherSource::ghi_and_dni:
+      return "DNI as it is, DHI = GHI - DNI sin(elevation)";
+    case WeatherSource::ghi_alone:
+      return decomposition == Decomposition::erbs
+                 ? "GHI divided into DNI and DHI after Erbs, Klein & Duffie (1982)"
+                 : "GHI divided into DNI and DHI by DISC, Maxwell (1987)";
+    case WeatherSource::none:
+      break;
+  }
+  return "nothing";
+}
+
+std::string completed_words(WeatherSource has, Decomposition decomposition) {
+  switch (has) {
+    case WeatherSource::dni_and_dhi:
+      return "have no GHI: it is DNI sin(elevation) + DHI";
+    case WeatherSource::ghi_and_dhi:
+      return "have no DNI: it is (GHI - DHI) / sin(elevation)";
+    case WeatherSource::ghi_and_dni:
+      return "have no DHI: it is GHI - DNI sin(elevation)";
+    case WeatherSource::ghi_alone:
+      return "have GHI alone: " + source_words(has, decomposition);
+    case WeatherSource::none:
+      break;
+  }
+  return "have nothing";
+}
+
+std::string lacking_words(const std::vector<DatedWeather>& weather, WeatherSource source) {
+  std::vector<std::string> words;
+  for (const WeatherQuantity quantity : needed(source)) {
+    const auto lacking = std::count_if(weather.begin(), weather.end(), [&](const DatedWeather& w) {
+      return !(w.values.*quantity).has_value();
+    });
+    if (lacking > 0) words.push_back(fmt::format("{} {}", quantity_name(quantity), lacking));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string missing_words(const WeatherValues& values, WeatherSource source) {
+  std::vector<std::string> names;
+  for (const WeatherQuantity quantity : needed(source))
+    if (!(values.*quantity).has_value()) names.push_back(quantity_name(quantity));
+  return fmt::format("{} {}", fmt::join(names, " and "), names.size() == 1 ? "is" : "are");
+}
+
+WeatherSayings doubt_words(const WeatherDoubts& doubts, const std::string& path) {
+  constexpr auto* of_time = "are stamp and time zone of the weather right?";
+  constexpr auto* of_columns = "are the columns of the weather right?";
+  WeatherSayings sayings;
+  add_contradiction(doubts.beam_by_difference, doubts.ghi_wh_m2,
+                    "GHI - DHI above the sun's own beam outside of the atmosphere",
+                    "too much for it are taken as diffuse light", of_time, sayings);
+  add_contradiction(doubts.dhi_above_ghi, doubts.ghi_wh_m2, "DHI above GHI",
+                    "more light than GHI has, DHI is kept", of_columns, sayings);
+  add_contradiction(doubts.beam_above_ghi, doubts.ghi_wh_m2, "DNI sin(elevation) above GHI",
+                    "more light than GHI has, DNI is kept", of_time, sayings);
+  if (doubts.dni.records > 0)
+    sayings.warnings.push_back(fmt::format(
+        "weather: {} records have DNI above the sun's own outside of the atmosphere, first {}:{} "
+        "with {:.0f} of at most {:.0f} W/m2; they are taken as they are",
+        doubts.dni.records, path, doubts.dni.line, doubts.dni.is, doubts.dni.at_most));
+  return sayings;
+}
+
+}  // namespace sunload

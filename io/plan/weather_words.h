@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What is said of a weather file's quantities.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geo/sun/weather.h"
+#include "geo/sun/weather_doubts.h"
+
+namespace sunload {
+
+/// What light is made from, and how.
+std::string source_words(WeatherSource source, Decomposition decomposition);
+/// What a record lacks that others have, and how it follows.
+std::string completed_words(WeatherSource has, Decomposition decomposition);
+/// "DNI 12, DHI 3"
+std::string lacking_words(const std::vector<DatedWeather>& weather, WeatherSource source);
+/// "DNI and DHI are"
+std::string missing_words(const WeatherValues& values, WeatherSource source);
+
+struct WeatherSayings {
+  std::vector<std::string> notes, warnings;
+};
+/// With amounts; `path`: of the file.
+WeatherSayings doubt_words(const WeatherDoubts& doubts, const std::string& path);
+
+}  // namespace sunload
