@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
 
+#include "geo/base/units.h"
 #include "geo/mesh/slope.h"
 #include "tests/geo/mesh/mesh_prepare_models.h"
 
@@ -32,14 +34,14 @@ struct Cut {
 };
 
 Cut cut(const ModelBuilder& builder, PrepareRules rules = {},
-        const std::string& transparent_object = "") {
+        const std::string& transparent_object = "", Cavities cavities = Cavities::lit) {
   Cut result{builder.prepared(rules), {}};
   Mesh& mesh = result.p.mesh;
   std::vector<std::uint8_t> is_opaque;
   for (const auto object : mesh.triangle_object)
     is_opaque.push_back(mesh.object_names[object.index()] != transparent_object);
   const double before = area(mesh);
-  result.cut = cut_covered(mesh, result.p.bodies, is_opaque, result.p.seals);
+  result.cut = cut_covered(mesh, result.p.bodies, is_opaque, result.p.seals, {}, cavities);
   EXPECT_NEAR(area(mesh) + result.cut.taken.area_m2, before, rounding);  // nothing is lost
   EXPECT_EQ(result.cut.source.size(), mesh.triangle_count());
   EXPECT_EQ(result.p.bodies.triangle_body.size(), mesh.triangle_count());
@@ -125,6 +127,71 @@ TEST(Covered, ACavityIsNotCovered) {
   }
   builder.object("lamp").box({4, 4, 4}, {5, 5, 5});
   EXPECT_EQ(cut(builder).cut.covered, 0u);
+  // Where no lamp is, nothing lights it, nor what stands in it.
+  EXPECT_NEAR(all_covered(cut(builder, {}, "", Cavities::dark)), 216 + 6, rounding);
+}
+
+using Boxes = std::vector<std::array<Vec3, 2>>;
+
+ModelBuilder boxes_of_objects(const Boxes& boxes, bool are_one) {
+  ModelBuilder builder;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (i == 0 || !are_one) builder.object("box " + std::to_string(i));
+    builder.box(boxes[i][0], boxes[i][1]);
+  }
+  return builder.moved(turned);
+}
+
+double visible(const Cut& c, Surface kind) {
+  return area_of(c.p, kind) - c.p.report.covered_m2[static_cast<std::size_t>(kind)];
+}
+
+TEST(Covered, SolidsOfOneObjectThatShareAnEdgeAreSeenAsThoseOfSeveral) {
+  const Boxes row{{{{0, 0, 0}, {10, 8, 6}}},
+                  {{{10, 0, 0}, {16, 8, 4}}},
+                  {{{16, 0, 0}, {21, 8, 9}}},
+                  {{{21, 0, 0}, {28, 8, 5}}}};
+  const Boxes penthouse{{{{0, 0, 0}, {10, 12, 6}}}, {{{2, 0, 6}, {8, 5, 9}}}};
+  const Boxes corner{{{{0, 0, 0}, {10, 12, 6}}}, {{{0, 0, 6}, {4, 5, 9}}}};
+  for (Boxes boxes : {row, penthouse, corner})
+    for (int order = 0; order < 2; ++order) {
+      std::ranges::reverse(boxes);
+      const auto apart = cut(boxes_of_objects(boxes, false)),
+                 one = cut(boxes_of_objects(boxes, true));
+      EXPECT_EQ(one.p.report.open_sheets, 0u);
+      EXPECT_EQ(one.p.report.triangles_flipped, 0u);
+      for (const Surface kind : {Surface::wall, Surface::roof})
+        EXPECT_NEAR(visible(one, kind), visible(apart, kind), rounding);
+    }
+}
+
+TEST(Covered, TheSidesOfASheetOnABodyAreOpen) {
+  auto builder = ModelBuilder().object("house");
+  const auto box = ModelBuilder::box_faces({0, 0, 0}, {10, 10, 4});
+  for (const std::size_t face : {0u, 4u, 5u}) builder.ring(box[face]);
+  for (const double x : {0.0, 5.0}) {
+    const auto half = ModelBuilder::box_faces({x, 0, 0}, {x + 5, 10, 4});
+    for (const std::size_t face : {1u, 2u, 3u}) builder.ring(half[face]);
+  }
+  // A parapet without thickness, its sides divided in different ways.
+  builder.ring({{5, 0, 4}, {5, 10, 4}, {5, 10, 5.5}, {5, 0, 5.5}});
+  builder.ring({{5, 0, 5.5}, {5, 10, 5.5}, {5, 10, 7}, {5, 0, 7}});
+  builder.ring({{5, 0, 4}, {5, 0, 5.5}, {5, 0, 7}, {5, 10, 7}, {5, 10, 5.5}, {5, 10, 4}});
+  EXPECT_EQ(cut(builder).cut.covered, 0u);
+}
+
+TEST(Covered, WhatTwoBodiesCoverMeetsAtALineInTheMiddle) {
+  // Half of a wall is against one body and half inside of another.
+  for (int tens = 0; tens < 9; ++tens) {
+    const double angle = tens * pi / 18, c = std::cos(angle), s = std::sin(angle);
+    auto builder = ModelBuilder().object("h").box({4, 5, 0}, {8, 7, 2});
+    builder.object("w").box({0, 3, 0}, {4, 6, 2});
+    builder.object("n").box({2, 6, 0}, {6, 9, 1});
+    builder.moved([&](Vec3 v) { return Vec3{c * v.x - s * v.y, s * v.x + c * v.y, v.z}; });
+    const auto found = cut(builder);
+    EXPECT_NEAR(visible(found, Surface::wall) + visible(found, Surface::roof), 82, rounding)
+        << tens;
+  }
 }
 
 TEST(Covered, OverlappingBodiesLoseWhatIsInTheOther) {

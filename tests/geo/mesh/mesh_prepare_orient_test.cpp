@@ -87,6 +87,20 @@ TEST(Orient, ABodyBesideAnotherIsNoCavity) {
   EXPECT_EQ(p.report.triangles_flipped, 12u);
 }
 
+TEST(Orient, HousesOfOneObjectThatShareAnEdgeAreTurnedOutward) {
+  for (const bool is_first_inward : {false, true})
+    for (const bool is_second_inward : {false, true}) {
+      auto builder = ModelBuilder().object("row");
+      for (const auto& face : ModelBuilder::box_faces({0, 0, 0}, {10, 8, 6}))
+        builder.ring(is_first_inward ? reversed(face) : face);
+      for (const auto& face : ModelBuilder::box_faces({10, 0, 0}, {16, 8, 4}))
+        builder.ring(is_second_inward ? reversed(face) : face);
+      const auto p = builder.prepared();
+      EXPECT_EQ(p.report.open_sheets + p.report.unorientable, 0u);
+      EXPECT_NEAR(volume(p.mesh), 480 + 192, orient_rounding);
+    }
+}
+
 TEST(Orient, BodiesOfDifferentObjectsThatTouchBothClose) {
   const auto p = ModelBuilder()
                      .object("a")
