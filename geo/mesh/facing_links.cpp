@@ -81,6 +81,30 @@ std::vector<AngledUse> around_edge(std::vector<AngledUse> order) {
   return order;
 }
 
+/// Links the uses of sheets that have two of them, which go on from each other whatever else meets
+/// them at the edge: another solid that touches there, or goes through it. Returns the others.
+std::vector<EdgeUse> others_after_linking_sheets(const Grouping& sheets,
+                                                 std::span<const EdgeUse> uses, Links& links) {
+  std::vector<EdgeUse> others;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    const auto sheet = sheets.body[uses[i].triangle()];
+    std::size_t count = 0, partner = i;
+    for (std::size_t k = 0; k < uses.size(); ++k) {
+      if (sheets.body[uses[k].triangle()] != sheet) continue;
+      ++count;
+      if (k != i) partner = k;
+    }
+    const auto walk = [&](std::size_t k) {
+      return links.up[uses[k].half_edge] ^ sheets.flip[uses[k].triangle()];
+    };
+    if (count == 2 && walk(i) != walk(partner))
+      links.next[uses[i].half_edge] = uses[partner].half_edge;
+    else
+      others.push_back(uses[i]);
+  }
+  return others;
+}
+
 }  // namespace
 
 Links link_edges(const Mesh& mesh, const std::vector<std::uint8_t>& included) {
@@ -100,7 +124,9 @@ Links link_edges(const Mesh& mesh, const std::vector<std::uint8_t>& included) {
   const Grouping sheets = group(mesh, links, included);
   for_each_edge(all, [&](std::span<const EdgeUse> uses) {
     if (uses.size() == 2 || uses.size() % 2 != 0) return;
-    const auto ring = around_edge(by_angle(mesh, links, sheets, uses));
+    const auto others = others_after_linking_sheets(sheets, uses, links);
+    if (others.empty()) return;
+    const auto ring = around_edge(by_angle(mesh, links, sheets, others));
     for (std::size_t i = 0; i < ring.size(); ++i)
       links.next[ring[i].half_edge] = ring[(i + 1) % ring.size()].half_edge;
   });

@@ -12,10 +12,11 @@ namespace sunload {
 
 inline constexpr std::uint32_t no_link = 0xffffffff;
 
-/// Half-edges that must agree, and how each walks its edge in the file. Two
-/// triangles at an edge agree if they walk it in opposite directions; of 2m at an
-/// edge those next to each other by angle must, since solid and void alternate. Where some lie on
-/// each other, as solids that touch do, their order is the one in which sheets go on.
+/// Half-edges that must agree, and how each walks its edge in the file. Two triangles at an edge
+/// agree if they walk it in opposite directions. Of 2m at an edge those of one sheet, which hang
+/// together elsewhere, go on from each other where it has two there; of the others those next to
+/// each other by angle must agree, since solid and void alternate, and where some lie on each
+/// other, as solids that touch do, their order is the one in which sheets go on.
 struct Links {
   std::vector<std::uint32_t> next;  ///< in a ring around the edge; no_link at odd edges
   std::vector<std::uint8_t> up;

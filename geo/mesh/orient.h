@@ -14,7 +14,7 @@ namespace sunload {
 enum class Winding { keep, turn };
 
 /// Triangles of one object that are joined over edges with an even number of
-/// uses (two, or more where bodies touch).
+/// uses: two, or more where bodies touch (geo/mesh/facing_links).
 struct Body {
   ObjectId object;
   bool is_closed = false;      ///< every edge is walked as often up as down
@@ -35,9 +35,7 @@ struct Bodies {
   std::size_t nonmanifold_edges = 0;  ///< with more than two uses
 };
 
-/// Two triangles at an edge agree if they walk it in opposite directions; of
-/// 2m triangles at an edge those next to each other by angle must agree, since
-/// solid and void alternate around it. Edges with an odd number of uses say
+/// Which triangles at an edge must agree: geo/mesh/facing_links. Edges with an odd number of uses say
 /// nothing, and bodies with such edges are open.
 ///
 /// `turn`: an open body gets the winding that the larger part of its area has
