@@ -35,8 +35,8 @@ struct Bodies {
   std::size_t nonmanifold_edges = 0;  ///< with more than two uses
 };
 
-/// Which triangles at an edge must agree: geo/mesh/facing_links. Edges with an odd number of uses say
-/// nothing, and bodies with such edges are open.
+/// Which triangles at an edge must agree: geo/mesh/facing_links. Edges with an odd number of uses
+/// say nothing, and bodies with such edges are open.
 ///
 /// `turn`: an open body gets the winding that the larger part of its area has
 /// in the file. A closed body is turned outward (positive volume); a closed
