@@ -109,14 +109,19 @@ bool Covers::is_against(std::size_t t, std::size_t u) const {
   return !are_of_one_body(t, u) && reaches_before(t, bodies_.triangle_body[u]);
 }
 
+/// +1 where `u` lies above `p` and looks up, -1 down, else 0: the sum over a body is its inside.
+/// 0.
+int Covers::crossing_above(std::size_t u, Vec3 p) const {
+  const int side = plumb_crossing(corners(u), p.x, p.y);
+  return side != 0 && plane_height(u, p.x, p.y) > p.z ? side : 0;
+}
+
 bool Covers::is_solid_behind(std::size_t t, Vec3 at) const {
   if (!is_in_solid(t)) return false;
   const Vec3 p = at - looked_at_m() * normal_[t];
   int inside = 0;
   tree_.visit_meeting({p, {p.x, p.y, std::numeric_limits<double>::infinity()}}, [&](std::size_t u) {
-    if (!are_of_one_body(t, u)) return;
-    const int side = plumb_crossing(corners(u), p.x, p.y);
-    if (side != 0 && plane_height(u, p.x, p.y) > p.z) inside += side;
+    if (are_of_one_body(t, u)) inside += crossing_above(u, p);
   });
   return inside > 0;
 }
@@ -150,10 +155,8 @@ bool Covers::is_buried(std::size_t t, Vec3 at) const {
   bool is_below_land = false;
   tree_.visit_meeting({p, {p.x, p.y, 1e300}}, [&](std::size_t u) {
     const bool is_filled = cavities_ == Cavities::dark && is_in_cavity(u);
-    if (is_in_solid(u) && bodies_.triangle_body[u] != own && !is_filled) {
-      const int side = plumb_crossing(corners(u), p.x, p.y);
-      if (side != 0 && plane_height(u, p.x, p.y) > p.z) inside += side;
-    }
+    if (is_in_solid(u) && bodies_.triangle_body[u] != own && !is_filled)
+      inside += crossing_above(u, p);
     if (!is_below_land && may_bury(t, u)) {
       const auto z = height_at(mesh_, u, p.x, p.y);
       // Land that lies on land in millimetres is found as what is behind it.

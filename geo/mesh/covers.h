@@ -93,6 +93,7 @@ class Covers {
   bool is_window(std::size_t t) const { return mesh_.triangle_surface[t] == Surface::window; }
   bool may_replace(std::size_t t, std::size_t u) const;
   bool is_in_place_of(std::size_t t, std::size_t u) const;
+  int crossing_above(std::size_t u, Vec3 p) const;
   bool reaches_before(std::size_t t, std::int32_t body) const;
   bool may_bury(std::size_t t, std::size_t u) const;
   bool is_sealed(Vec3 p) const;

@@ -8,11 +8,12 @@
 #include <utility>
 
 #include "geo/base/units.h"
-#include "geo/sky/sky.h"
+#include "io/plan/disk_estimate.h"
 #include "io/plan/mesh_family.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/seasons_of_plan.h"
 #include "io/plan/stored_bits.h"
+#include "io/plan/surface_shares.h"
 #include "io/plan/variant_mesh.h"
 #include "solver/base/cost.h"
 #include "solver/base/threads.h"
@@ -68,28 +69,6 @@ double estimated_samples(const VariantPlan& plan, const MaterialsOfScene& of_sea
   return blocks * samples + (emitted_w > 0 ? samples_of(emitted_w) : 0);
 }
 
-/// Of the surfaces' area.
-template <class Property>
-double share_of_surfaces(const Mesh& mesh, const MaterialsOfScene& of_season,
-                         const Property& property) {
-  double area = 0, with_it = 0;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const double of_triangle = norm(mesh.area_vector2(t));
-    area += of_triangle;
-    if (property(of_season.of(t))) with_it += of_triangle;
-  }
-  return area > 0 ? with_it / area : 0;
-}
-
-/// Rays that a line is made of where mirrors send it on: of what it meets, as much as there is
-/// mirror, glass, metal and gloss among the surfaces.
-double rays_per_line(const Mesh& mesh, const MaterialsOfScene& of_season, int mirror_depth) {
-  const double again = share_that_meets * share_of_surfaces(mesh, of_season, sends_on);
-  double rays = 1, of_depth = 1;
-  for (int depth = 0; depth < mirror_depth; ++depth) rays += of_depth *= again;
-  return rays;
-}
-
 /// Suns above the horizon that bring no direct light, all those that stand for one interval
 /// counted.
 double clouded_suns(const LightSeries& light) {
@@ -123,37 +102,6 @@ double solution_seconds(double patches, double links, double suns) {
   return links * suns * s_per_link_sun + patches * suns * s_per_patch_sun;
 }
 
-/// What series take, per patch and band.
-struct SeriesBytes {
-  double of_batch = 0, of_merge = 0, on_disk = 0;
-};
-
-/// In batches and in the result; of dark intervals next to nothing. Sums over steps are doubles,
-/// beside the series of intervals that measures watch; merge holds a row of chunks.
-SeriesBytes series_bytes(const VariantPlan& plan, double series, double value_bytes) {
-  const auto lit = static_cast<double>(lit_intervals(plan));
-  const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
-  if (plan.steps.empty()) return {batch * series * value_bytes, 0, 2 * lit * series * value_bytes};
-  const auto steps = static_cast<double>(plan.steps.size()),
-             batches = static_cast<double>(plan.batches());
-  // A batch begins and ends within steps.
-  const double of_steps = series * double_bytes * (steps / batches + 1);
-  double watched = 0;
-  for (std::size_t p = 0; p < part_count; ++p)
-    watched += is_watched(plan.study, static_cast<Part>(p)) ? 1 : 0;
-  return {of_steps + watched * batch * value_bytes,
-          series * (static_cast<double>(series_step_rows) * float_bytes + double_bytes),
-          batches * of_steps + watched * lit * value_bytes + steps * series * value_bytes};
-}
-
-template <class Value>
-double mean_over_seasons(const VariantPlan& plan, const Value& value) {
-  const auto seasons = materials_by_season(plan);
-  double sum = 0;
-  for (const MaterialsOfScene& season : seasons) sum += value(season);
-  return sum / static_cast<double>(seasons.size());
-}
-
 double line_seconds(const VariantPlan& plan) {
   const Mesh& mesh = plan.built.scene.mesh;
   const auto triangles = static_cast<double>(std::max<std::size_t>(mesh.triangle_count(), 1));
@@ -178,58 +126,6 @@ double receivers(const VariantPlan& plan, std::size_t patches) {
 
 double band_factor(const VariantPlan& plan) {
   return plan.study.solver.bands == Bands::rgb ? static_cast<double>(band_count) : 1;
-}
-
-/// What is kept of a line of a patch that has so many: links to diffuse surfaces and to the sky,
-/// those of what mirrors and the like send on, and where it met a glossy surface.
-double kept_bytes_of_line(const VariantPlan& plan, double lines_per_patch, bool guided) {
-  const Mesh& mesh = plan.built.scene.mesh;
-  return (guided ? kept_bytes_per_guided_line : 0) +
-         mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
-           const auto is_linked = [](const Material& m) { return m.diffuse > 0 || emits(m); };
-           const auto is_glossy = [](const Material& m) { return m.glossy > 0; };
-           const double linked = share_of_surfaces(mesh, of_season, is_linked);
-           const double rays = rays_per_line(mesh, of_season, plan.study.solver.mirror_depth);
-           const double met = share_that_meets * linked, left = 1 - share_that_meets;
-           return kept_bytes_per_line(lines_per_patch) * (met + left) +
-                  kept_bytes_per_weighted_link * (rays - 1) * (met + left) +
-                  kept_bytes_per_glimpse * rays * share_that_meets *
-                      share_of_surfaces(mesh, of_season, is_glossy);
-         });
-}
-
-/// Lines and skies and suns of few that a process leaves for those that come later; of sensors
-/// nothing. Written where there are two batches, and the scene is one in all seasons.
-double prepared_bytes(const VariantPlan& plan, double patches, double lines_per_patch, bool guided,
-                      double node_bytes) {
-  if (plan.batches() < 2 || !plan.seasons.all.empty()) return 0;
-  const auto materials = materials_of(plan);
-  const bool sent_on = std::any_of(materials.begin(), materials.end(), sends_on);
-  const double cells = sent_on ? SkyGrid().cell_count() + 1.0 : 0;  // and the far ground
-  const bool by_matrix = plan.study.solver.transport == Transport::matrix;
-  const double sets = plan.study.solver.realizations + 1.0;  // and all together
-  return sets * (patches * (kept_bytes_per_patch + (guided ? kept_bytes_per_lit_patch : 0) +
-                            (by_matrix ? patches * kept_bytes_per_factor : 0)) +
-                 cells * kept_bytes_per_cell) +
-         patches * lines_per_patch * kept_bytes_of_line(plan, lines_per_patch, guided) + node_bytes;
-}
-
-/// The result but for series and parts of the period.
-double result_bytes(const VariantPlan& plan, double n, double parts, double bands) {
-  const double kinds =
-      parts * result_bytes_per_kind + double_bytes * plan.study.solver.realizations;
-  return bytes_per_result + n * geometry_bytes_per_patch +
-         n * static_cast<double>(plan.study.measures.size()) * bytes_per_measure +
-         bands * n * (result_bytes_per_patch + kinds);
-}
-
-/// Sun, sky, ledger and facades' means of every interval in batches and result, and what batches
-/// have besides.
-double interval_bytes(const VariantPlan& plan, double bands, double value_bytes) {
-  const auto facades = static_cast<double>(plan.built.scene.mesh.facades.size());
-  return static_cast<double>(plan.batches()) * bytes_per_batch +
-         static_cast<double>(plan.intervals()) * bands * stored_bytes_per_interval +
-         2 * static_cast<double>(lit_intervals(plan)) * bands * facades * value_bytes;
 }
 
 /// Patches that look at the bright sky about the sun by rays; shooting leaves it to lines.

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
+#include "geo/base/check.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
@@ -49,5 +51,34 @@ using PointsTogether = PointColumns<packets_together * packet_size>;
 /// To the halves that hold them, until all are in leaves. `splits`: of every element.
 void descend(const Split* splits, PointsTogether& points);
 void descend(const Split* splits, PointColumns<1>& point);
+
+/// Numbers of the leaves that hold what the rays of up to `packets_together` have met, one packet
+/// after the other. `root_of(packet, ray)`: the element to begin with; -1, as where a ray has met
+/// nothing: none, and none is the leaf.
+template <class RootOf>
+void find_leaves(std::span<const Split> splits, std::span<const PacketHits> hits,
+                 const RootOf& root_of, std::int32_t* leaf) {
+  SUNLOAD_EXPECT(hits.size() <= packets_together, "packets fit side by side");
+  PointsTogether points;
+  const std::size_t count = hits.size() * packet_size;
+  for (std::size_t place = 0; place < packets_together * packet_size; ++place) {
+    if (place >= count) {
+      points.put_nothing(place);
+      continue;
+    }
+    const PacketHits& of = hits[place / packet_size];
+    const std::size_t l = place % packet_size;
+    const std::int32_t root = root_of(of, l);
+    leaf[place] = root;
+    if (root >= 0)
+      points.put(place, splits[static_cast<std::size_t>(root)], static_cast<double>(of.u[l]),
+                 static_cast<double>(of.v[l]));
+    else
+      points.put_nothing(place);  // u and v are anything
+  }
+  descend(splits.data(), points);
+  for (std::size_t place = 0; place < count; ++place)
+    if (leaf[place] >= 0) leaf[place] = -1 - points.split[place];
+}
 
 }  // namespace sunload

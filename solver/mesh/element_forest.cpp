@@ -157,33 +157,13 @@ std::vector<std::int32_t> ElementForest::leaves_at_edge(const Edge& edge) const 
   return leaves;
 }
 
-std::int32_t ElementForest::leaf_at(std::int32_t triangle, double u, double v) const {
-  const std::int32_t root = root_[static_cast<std::size_t>(triangle)];
-  if (root < 0) return -1;
-  PointColumns<1> point;
-  point.put(0, splits_[static_cast<std::size_t>(root)], u, v);
-  descend(splits_.data(), point);
-  return -1 - point.split[0];
-}
-
 void ElementForest::leaves_at(std::span<const PacketHits> hits, std::int32_t* leaf) const {
-  SUNLOAD_EXPECT(hits.size() <= packets_together, "packets fit side by side");
-  PointsTogether points;
-  const std::size_t count = hits.size() * packet_size;
-  for (std::size_t place = 0; place < packets_together * packet_size; ++place) {
-    points.put_nothing(place);
-    if (place >= count) continue;
-    const PacketHits& of = hits[place / packet_size];
-    const std::size_t l = place % packet_size;
-    const auto root = of.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(of.triangle[l])];
-    leaf[place] = root;
-    if (root >= 0)
-      points.put(place, splits_[static_cast<std::size_t>(root)], static_cast<double>(of.u[l]),
-                 static_cast<double>(of.v[l]));
-  }
-  descend(splits_.data(), points);
-  for (std::size_t place = 0; place < count; ++place)
-    if (leaf[place] >= 0) leaf[place] = -1 - points.split[place];
+  find_leaves(
+      splits_, hits,
+      [this](const PacketHits& of, std::size_t l) {
+        return of.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(of.triangle[l])];
+      },
+      leaf);
 }
 
 }  // namespace sunload

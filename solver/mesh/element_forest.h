@@ -67,14 +67,13 @@ class ElementForest {
   std::size_t patch_count() const { return patch_count_; }
   /// How each element is split; of leaves by their own numbers.
   const std::vector<Split>& splits() const { return splits_; }
-  /// Leaf that holds a point of an input triangle (weights of corners 1 and 2), or -1.
-  std::int32_t leaf_at(std::int32_t triangle, double u, double v) const;
-  /// The same where the rays of up to `packets_together` have met triangles, whichever side; -1 for
+  /// Leaves where the rays of up to `packets_together` have met triangles, whichever side; -1 for
   /// those that have met none. `leaf`: of one packet after the other.
   void leaves_at(std::span<const PacketHits> hits, std::int32_t* leaf) const;
 
  private:
   std::int32_t midpoint(const Edge& edge);
+  void add_leaf(const Element& element);
   void bisect(std::size_t leaf);
   void split_tree(std::size_t element, const SplitRules& rules);
   void split_with_neighbours(std::size_t leaf);
@@ -84,8 +83,6 @@ class ElementForest {
   std::vector<std::int32_t> leaves_at_edge(const Edge& edge) const;
 
   const Scene& scene_;
-  void add_leaf(const Element& element);
-
   std::vector<Element> elements_;
   std::vector<Split> splits_;
   std::vector<Vec3> vertices_;

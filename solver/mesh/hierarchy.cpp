@@ -123,28 +123,18 @@ std::int32_t Hierarchy::patch_at(std::int32_t triangle, double u, double v, bool
 }
 
 void Hierarchy::patches_at(std::span<const PacketHits> hits, std::int32_t* patch) const {
-  SUNLOAD_EXPECT(hits.size() <= packets_together, "packets fit side by side");
-  PointsTogether points;
-  const std::size_t count = hits.size() * packet_size;
-  for (std::size_t place = 0; place < packets_together * packet_size; ++place) {
-    if (place >= count) {
-      points.put_nothing(place);
-      continue;
-    }
-    const PacketHits& of = hits[place / packet_size];
-    const std::size_t l = place % packet_size;
-    const auto root = of.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(of.triangle[l])];
-    const bool any = root >= 0 && (of.front[l] || root % 2 != 0);
-    patch[place] = !any ? -1 : of.front[l] ? 0 : 1;
-    if (any)
-      points.put(place, split_[static_cast<std::size_t>(root / 2)], static_cast<double>(of.u[l]),
-                 static_cast<double>(of.v[l]));
-    else
-      points.put_nothing(place);  // u and v are anything
-  }
-  descend(split_.data(), points);
-  for (std::size_t place = 0; place < count; ++place)
-    if (patch[place] >= 0) patch[place] += -1 - points.split[place];
+  find_leaves(
+      split_, hits,
+      [this](const PacketHits& of, std::size_t l) {
+        const auto root = of.triangle[l] < 0 ? -1 : root_[static_cast<std::size_t>(of.triangle[l])];
+        return root >= 0 && (of.front[l] || root % 2 != 0) ? root / 2 : -1;
+      },
+      patch);
+  // Leaves are numbered by their fronts.
+  for (std::size_t p = 0; p < hits.size(); ++p)
+    for (std::size_t l = 0; l < packet_size; ++l)
+      if (std::int32_t& found = patch[p * packet_size + l]; found >= 0 && !hits[p].front[l])
+        ++found;
 }
 
 }  // namespace sunload

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -103,6 +104,19 @@ TEST(ElementForest, EqualEdgesAreToldApartByTheirPlaceNotByTheirNumbers) {
     ASSERT_LT(norm(a.centroid(i) - b.centroid(i)), 1e-12) << "patch " << i;
 }
 
+/// By a ray that has met it, among others that have met nothing.
+std::int32_t leaf_at(const ElementForest& forest, std::int32_t triangle, double u, double v) {
+  PacketHits hits{};
+  std::fill_n(hits.triangle, packet_size, -1);
+  constexpr std::size_t ray = 5;
+  hits.triangle[ray] = triangle;
+  hits.u[ray] = static_cast<float>(u);
+  hits.v[ray] = static_cast<float>(v);
+  std::int32_t leaves[packet_size];
+  forest.leaves_at({&hits, 1}, leaves);
+  return leaves[ray];
+}
+
 TEST(ElementForest, FindsTheLeafThatHoldsAPoint) {
   const Scene scene = closed_box();
   ElementForest forest(scene);
@@ -117,7 +131,7 @@ TEST(ElementForest, FindsTheLeafThatHoldsAPoint) {
     const Vec3 ab = scene.mesh.corner(t, 1) - a, ac = scene.mesh.corner(t, 2) - a;
     const double u = dot(cross(centre - a, ac), n) / dot(n, n);
     const double v = dot(cross(ab, centre - a), n) / dot(n, n);
-    EXPECT_EQ(forest.leaf_at(e.triangle, u, v), static_cast<std::int32_t>(leaf));
+    EXPECT_EQ(leaf_at(forest, e.triangle, u, v), static_cast<std::int32_t>(leaf));
     const auto patch = frozen.patch_at(e.triangle, u, v, true);
     ASSERT_GE(patch, 0);
     EXPECT_LT(norm(frozen.centroid(static_cast<std::size_t>(patch)) - centre), 1e-12);
