@@ -20,6 +20,13 @@ Box widened(Box box, double by);
 bool meet(const Box& a, const Box& b);
 inline Vec3 centre_of(const Box& box) { return (box.low + box.high) * 0.5; }
 inline Vec3 half_of(const Box& box) { return (box.high - box.low) * 0.5; }
+/// Square of the distance between them; 0 within the box.
+inline double distance2(const Box& box, Vec3 p) {
+  const Vec3 d{std::max({0.0, box.low.x - p.x, p.x - box.high.x}),
+               std::max({0.0, box.low.y - p.y, p.y - box.high.y}),
+               std::max({0.0, box.low.z - p.z, p.z - box.high.z})};
+  return dot(d, d);
+}
 /// The box at all heights: asks for what lies in the same place in plan.
 Box upright(Box box);
 /// The box at height 0, for trees that are asked by upright boxes only. (Upright ones in a tree
@@ -105,12 +112,6 @@ class BoxTree {
         distance2(nodes_[n + 1].box, from) <= distance2(nodes_[node.second_child].box, from);
     visit_from(in_order ? n + 1 : node.second_child, from, meets, visit);
     visit_from(in_order ? node.second_child : n + 1, from, meets, visit);
-  }
-  static double distance2(const Box& box, Vec3 p) {
-    const Vec3 d{std::max({0.0, box.low.x - p.x, p.x - box.high.x}),
-                 std::max({0.0, box.low.y - p.y, p.y - box.high.y}),
-                 std::max({0.0, box.low.z - p.z, p.z - box.high.z})};
-    return dot(d, d);
   }
 
   std::vector<Box> boxes_;

@@ -74,7 +74,7 @@ inline constexpr double s_per_byte_of_sums = 3e-9;  ///< in batches: written, re
 
 // The mesh pilot: for every element that it ever looks at, 16 points look along
 // its suns and its other directions.
-inline constexpr double elements_per_leaf = 2, points_per_element = 16;
+inline constexpr double elements_per_leaf = 1.5, points_per_element = 16;
 inline constexpr double other_directions = 16;
 
 // The matrix of a small scene: one form factor, and its share in a realization's factorisation.

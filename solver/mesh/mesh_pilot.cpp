@@ -369,7 +369,7 @@ double MeshPilot::radiosity(std::int32_t leaf, bool front) const {
   if (leaf < 0) return 0;
   const auto element = static_cast<std::size_t>(leaf);
   if (!front && !forest_.is_two_sided(element)) return 0;
-  return typical_reflectance * static_cast<double>(load_[2 * element + (front ? 0 : 1)]);
+  return typical_reflectance * load_of(element, front ? 0 : 1);
 }
 
 }  // namespace sunload

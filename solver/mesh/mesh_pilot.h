@@ -54,6 +54,9 @@ class MeshPilot {
 
   /// Light load that surfaces are taken to receive where others see them, per element and side.
   void set_load(std::size_t element, std::uint8_t side, double load);
+  double load_of(std::size_t element, std::uint8_t side) const {
+    return static_cast<double>(load_[2 * element + side]);
+  }
   /// A new element takes the load of its parent until its own is set.
   void add_children_of(std::size_t element);
 

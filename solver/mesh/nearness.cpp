@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sunload {
 
@@ -58,8 +59,6 @@ Nearness::Nearness(const Scene& scene) : scene_(scene) {
     boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
   }
   boxes_ = BoxTree(std::move(boxes));
-  const Box all = bounding_box(mesh.vertices);
-  size_m_ = mesh.vertices.empty() ? 0 : norm(all.high - all.low);
 }
 
 double Nearness::distance_m(const ElementForest& forest, std::size_t element) const {
@@ -70,22 +69,19 @@ double Nearness::distance_m(const ElementForest& forest, std::size_t element) co
   const Vec3 centre = (corners[0] + corners[1] + corners[2]) / 3;
   double radius = 0;
   for (const Vec3 corner : corners) radius = std::max(radius, norm(corner - centre));
-  // Ever wider until something is found.
-  for (double reach = near_m / 8 + radius;; reach *= 2) {
-    const double nearest = nearest_m(centre, reach);
-    if (nearest <= reach || reach > 2 * size_m_) return std::max(0.0, nearest - radius);
-  }
+  return std::max(0.0, nearest_m(centre) - radius);
 }
 
-/// More than `closer_than_m` where no wall is so near.
-double Nearness::nearest_m(Vec3 point, double closer_than_m) const {
-  double nearest = 2 * closer_than_m;
-  boxes_.visit_meeting(widened(box_around({point}), closer_than_m), [&](std::size_t wall) {
-    const Mesh& mesh = scene_.mesh;
-    const std::size_t t = walls_[wall];
-    nearest = std::min(nearest,
-                       to_triangle(point, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
-  });
+double Nearness::nearest_m(Vec3 point) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  boxes_.visit_near_first(
+      point, [&](const Box& box) { return distance2(box, point) < nearest * nearest; },
+      [&](std::size_t wall) {
+        const Mesh& mesh = scene_.mesh;
+        const std::size_t t = walls_[wall];
+        nearest = std::min(
+            nearest, to_triangle(point, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
+      });
   return nearest;
 }
 

@@ -32,13 +32,12 @@ class Nearness {
   double distance_m(const ElementForest& forest, std::size_t element) const;
 
  private:
-  double nearest_m(Vec3 point, double closer_than_m) const;
+  double nearest_m(Vec3 point) const;
 
   const Scene& scene_;
   std::vector<std::size_t> walls_;  ///< triangles
   std::vector<bool> is_wall_;       ///< per triangle
   BoxTree boxes_;                   ///< of `walls_`
-  double size_m_ = 0;               ///< of the scene
 };
 
 }  // namespace sunload

@@ -9,6 +9,7 @@
 
 #include "geo/base/check.h"
 #include "solver/base/threads.h"
+#include "solver/mesh/load_sums.h"
 #include "solver/mesh/nearness.h"
 
 namespace sunload {
@@ -16,31 +17,20 @@ namespace sunload {
 namespace {
 
 constexpr std::size_t elements_per_task = 64;
-/// Share of the squared error whose leaves are split in one pass (Dörfler's parameter).
-constexpr double marked_share = 0.5;
-/// Where the tolerance is out of reach because leaves of the least area hold too much of the error,
-/// the others are split until they hold this share of it: more would hardly lower the sum.
-constexpr double worth_splitting = 0.2;
 /// A mesh is looked at by a sample of its leaves first, where it has more than this …
 constexpr std::size_t few_leaves = 20'000;
-/// … one of so many: a thousand leaves and more, which know the error to some per cent. Below the
-/// tolerance by as much, the mesh is left as it is; to look at all of a large one costs as much as
-/// half of its lines.
+/// … one of so many: a thousand leaves of a kind and more, which know the error to some per cent.
+/// Kinds that are below the tolerance by as much are left as they are; to look at all of a large
+/// mesh costs more than its lines.
 constexpr std::size_t leaves_per_sample = 16;
 constexpr double clearly_below = 0.95;
-
 /// A kind of which less than this is seen is looked at whole.
 constexpr std::size_t few_of_kind = few_leaves / leaves_per_sample;
-/// Of kinds that receive next to nothing the error is a share of this part of the mean of all.
-constexpr double least_share_of_mean = 0.1;
-/// Of glints a tolerance is so many times as wide: at five per cent of the mean, a quarter of their
-/// own root mean square, where an eighth of their area lies at an edge.
-constexpr double glint_width = 5;
+/// Sectors of azimuth that surfaces which are not looked at may face, besides up and down.
+constexpr std::size_t sectors = 8, facings = sectors + 2;
+constexpr double cos_of_level = 0.7;
 /// To this tolerance leaves are no longer than the distance to the nearest wall to begin with.
 constexpr double graded_tolerance = 0.05;
-
-constexpr std::size_t kinds = mesh_kind_names.size();
-constexpr std::size_t glints = static_cast<std::size_t>(MeshKind::glints);
 
 MeshKind kind_of(Surface surface, double distance_m) {
   switch (surface) {
@@ -58,36 +48,30 @@ MeshKind kind_of(Surface surface, double distance_m) {
   return MeshKind::other;
 }
 
-/// Where a leaf is: what does not depend on light.
-struct Place {
-  std::size_t kind = 0;
-  double weighted_m2 = 0;  ///< area of one side by its weight
-};
-
-/// What a pilot says of one leaf, both sides together; squares, power and area by the leaf's
-/// weight.
-struct Estimate {
-  double squared_error = 0;        ///< ∫ (H - mean H)² dA [J2 m-2]
-  double power = 0;                ///< ∫ H dA [J]
-  double area_m2 = 0;              ///< of the sides that have patches
-  double glint_squared_error = 0;  ///< of the light by mirrors alone
-  double glint_squares = 0;        ///< ∫ H² dA of it
-};
+/// Up, down, or a sector of azimuth.
+std::size_t facing_of(Vec3 normal) {
+  if (std::abs(normal.z) > cos_of_level) return sectors + (normal.z > 0 ? 0 : 1);
+  const double turns = std::atan2(normal.y, normal.x) / (2 * pi) + 1;
+  return static_cast<std::size_t>(turns * sectors + 0.5) % sectors;
+}
 
 /// What the historic oracle goes by: its largest estimates.
 struct HistoricEstimate {
   double by_suns_m2 = 0, by_emitters = 0;
 };
 
-/// Sums over the leaves of one kind.
-struct KindSum {
-  double squares = 0, power = 0, area = 0;
+/// Light on leaves of one kind that face alike.
+struct FacingSum {
+  double power = 0, area = 0;
 };
+
+/// Kinds, and of each whether something holds.
+using OfKinds = std::array<bool, mesh_kinds>;
 
 /// A pilot and what it says.
 struct Look {
   MeshPilot pilot;
-  std::vector<Estimate> estimates = {};  ///< per element
+  std::vector<LoadEstimate> estimates = {};  ///< per element
 };
 
 class Refinement {
@@ -131,12 +115,12 @@ class Refinement {
 
   std::size_t kind(std::size_t leaf) const { return places_[leaf].kind; }
 
-  Place place_of(std::size_t leaf) const {
+  LeafPlace place_of(std::size_t leaf) const {
     const auto triangle = static_cast<std::size_t>(forest_.elements()[leaf].triangle);
     const double distance_m = nearness_.distance_m(forest_, leaf);
     return {static_cast<std::size_t>(
                 kind_of(forest_.scene().mesh.triangle_surface[triangle], distance_m)),
-            weight_at(distance_m) * forest_.area(leaf)};
+            weight_at(distance_m) * forest_.area(leaf), is_large_enough(leaf)};
   }
 
   /// Of leaves that were not placed yet.
@@ -147,11 +131,10 @@ class Refinement {
         elements_per_task);
   }
 
-  Estimate estimate(const MeshPilot& pilot, std::size_t leaf, double (&loads)[2]) const {
-    Estimate e;
-    const double weighted = places_[leaf].weighted_m2;
-    const std::uint8_t sides = forest_.is_two_sided(leaf) ? 2 : 1;
-    for (std::uint8_t side = 0; side < sides; ++side) {
+  LoadEstimate estimate(const MeshPilot& pilot, std::size_t leaf, double (&loads)[2]) const {
+    LoadEstimate e;
+    const double weighted = places_[leaf].weighted_m2 * places_[leaf].stands_for;
+    for (std::uint8_t side = 0; side < sides_of(leaf); ++side) {
       const ElementLoad load = pilot.load(leaf, side, split_.min_area_m2);
       loads[side] = load.mean;
       e.squared_error += squared_error(load.variance, weighted);
@@ -168,8 +151,7 @@ class Refinement {
   HistoricEstimate historic_estimate(const MeshPilot& pilot, std::size_t leaf) const {
     HistoricEstimate e;
     const double area = forest_.area(leaf);
-    const std::uint8_t sides = forest_.is_two_sided(leaf) ? 2 : 1;
-    for (std::uint8_t side = 0; side < sides; ++side) {
+    for (std::uint8_t side = 0; side < sides_of(leaf); ++side) {
       const ElementLoad load = pilot.sources(leaf, side, split_.min_area_m2);
       e.by_emitters = std::max(e.by_emitters, load.lamp_form_factor);
       if (load.sees_sun)
@@ -199,83 +181,80 @@ class Refinement {
     }
   }
 
-  /// The estimate's part in the error of a kind, of glints only where they can be seen.
-  static double squares_of(const Estimate& e, std::size_t kind, double visible) {
-    if (kind != glints) return e.squared_error;
-    return e.glint_squares > visible * visible * e.area_m2 ? e.glint_squared_error : 0;
-  }
-
-  /// What light load is seen against the mean of all.
-  double visible_load(const Look& look, const Leaves& leaves) const {
-    double power = 0, area = 0;
-    for (const auto leaf : leaves) {
-      power += look.estimates[leaf].power;
-      area += look.estimates[leaf].area_m2;
-    }
-    return area > 0 ? rules_.light_tolerance * power / area : 0;
-  }
-
-  /// Per kind: root mean square of H - mean H over its leaves, as share of the mean of H.
-  std::array<double, kinds> relative_errors(const Look& look, const Leaves& leaves) const {
-    std::array<KindSum, kinds> sums;
-    KindSum all;
-    const double visible = visible_load(look, leaves);
-    for (const auto leaf : leaves) {
-      const Estimate& e = look.estimates[leaf];
-      KindSum& sum = sums[kind(leaf)];
-      for (KindSum* each : {&sum, &all}) {
-        each->power += e.power;
-        each->area += e.area_m2;
-      }
-      sum.squares += e.squared_error;
-      sums[glints].squares += squares_of(e, glints, visible);
-      if (e.glint_squares > visible * visible * e.area_m2) sums[glints].power += e.glint_squares;
-    }
-    std::array<double, kinds> errors{};
-    if (all.power <= 0) return errors;
-    for (std::size_t k = 0; k < glints; ++k) {
-      if (sums[k].area <= 0) continue;
-      const double mean =
-          std::max(sums[k].power / sums[k].area, least_share_of_mean * all.power / all.area);
-      errors[k] = std::sqrt(std::max(0.0, sums[k].squares) / sums[k].area) / mean;
-    }
-    if (sums[glints].power > 0)
-      errors[glints] =
-          std::sqrt(std::max(0.0, sums[glints].squares) / sums[glints].power) / glint_width;
-    return errors;
+  LoadSums sums_of(const Look& look) const {
+    return {places_, look.estimates, rules_.light_tolerance};
   }
 
   void tell_errors(const Leaves& leaves, RefineReport& report) const {
     report.error_of_kind = {};
     for (const Look& look : looks_) {
-      const auto errors = relative_errors(look, leaves);
-      for (std::size_t k = 0; k < kinds; ++k)
+      const KindErrors errors = sums_of(look).errors(leaves);
+      for (std::size_t k = 0; k < mesh_kinds; ++k)
         report.error_of_kind[k] = std::max(report.error_of_kind[k], errors[k]);
     }
     report.error = *std::max_element(report.error_of_kind.begin(), report.error_of_kind.end());
   }
 
-  /// Of every kind some leaves of a large mesh, known by their keys.
-  Leaves sample(const Leaves& leaves) const {
-    std::array<std::size_t, kinds> counts{};
-    for (const auto leaf : leaves) ++counts[kind(leaf)];
-    Leaves some;
-    for (const auto leaf : leaves) {
-      const std::size_t one_of =
-          std::clamp<std::size_t>(counts[kind(leaf)] / few_of_kind, 1, leaves_per_sample);
-      if (forest_.key(leaf) % one_of == 0) some.push_back(leaf);
+  /// All that can be split and are not of fine kinds; of the others, which only add to the sums, a
+  /// sample of every kind, known by the leaves' keys, that stands for all of them.
+  Leaves representatives(const Leaves& leaves, const OfKinds& is_fine) {
+    Leaves chosen, others;
+    for (const auto leaf : leaves)
+      (places_[leaf].can_be_split && !is_fine[kind(leaf)] ? chosen : others).push_back(leaf);
+    for (const auto leaf : chosen) places_[leaf].stands_for = 1;
+    std::array<std::size_t, mesh_kinds> one_of{};
+    for (const auto leaf : others) ++one_of[kind(leaf)];
+    for (auto& count : one_of)
+      count = std::clamp<std::size_t>(count / few_of_kind, 1, leaves_per_sample);
+    for (const auto leaf : others) {
+      if (forest_.key(leaf) % one_of[kind(leaf)] != 0) continue;
+      places_[leaf].stands_for = static_cast<double>(one_of[kind(leaf)]);
+      chosen.push_back(leaf);
     }
-    return some;
+    return chosen;
   }
 
-  bool is_clearly_fine(const Leaves& leaves) {
-    if (leaves.size() <= few_leaves) return false;
-    const Leaves some = sample(leaves);
+  std::uint8_t sides_of(std::size_t leaf) const { return forest_.is_two_sided(leaf) ? 2 : 1; }
+
+  std::size_t class_of(std::size_t leaf, std::size_t side) const {
+    const auto triangle = static_cast<std::size_t>(forest_.elements()[leaf].triangle);
+    return kind(leaf) * facings + facing_of(forest_.scene().mesh.normal(triangle, side == 0));
+  }
+
+  /// Leaves that were not looked at receive what those of their kind that face as they do receive.
+  void spread_loads(const Leaves& seen, const Leaves& leaves) {
+    std::vector<bool> is_seen(forest_.elements().size());
+    for (const auto leaf : seen) is_seen[leaf] = true;
+    for (Look& look : looks_) {
+      std::vector<FacingSum> sums(mesh_kinds * facings);
+      for (const auto leaf : seen)
+        for (std::uint8_t side = 0; side < sides_of(leaf); ++side) {
+          FacingSum& sum = sums[class_of(leaf, side)];
+          sum.power += look.pilot.load_of(leaf, side) * forest_.area(leaf);
+          sum.area += forest_.area(leaf);
+        }
+      for (const auto leaf : leaves)
+        for (std::uint8_t side = 0; side < sides_of(leaf) && !is_seen[leaf]; ++side)
+          if (const FacingSum& sum = sums[class_of(leaf, side)]; sum.area > 0)
+            look.pilot.set_load(leaf, side, sum.power / sum.area);
+    }
+  }
+
+  /// Kinds whose error a sample of the leaves says is below the tolerance: all or none where light
+  /// comes by mirrors, which may fall on any.
+  OfKinds clearly_fine(const Leaves& leaves) {
+    OfKinds is_fine;
+    is_fine.fill(true);
+    const Leaves some = representatives(leaves, is_fine);
     look_at(some);
+    spread_loads(some, leaves);
     look_at(some);  // once more, now that surfaces are known to be lit
     RefineReport of_sample;
     tell_errors(some, of_sample);
-    return of_sample.error <= clearly_below * rules_.light_tolerance;
+    for (std::size_t k = 0; k < mesh_kinds; ++k)
+      is_fine[k] = of_sample.error_of_kind[k] <= clearly_below * rules_.light_tolerance;
+    if (!is_fine[mesh_kind_glints]) is_fine.fill(false);
+    return is_fine;
   }
 
   /// Splits leaves that a look could not see through: longer than the distance to the nearest wall.
@@ -307,65 +286,63 @@ class Refinement {
     grade();
     Leaves leaves = all_leaves();
     place(leaves);
-    if (is_clearly_fine(leaves)) return;
-    look_at(leaves);
+    OfKinds is_fine{};
+    if (leaves.size() > few_leaves) {
+      is_fine = clearly_fine(leaves);
+      if (std::all_of(is_fine.begin(), is_fine.end(), [](bool is) { return is; })) return;
+    } else {
+      look_at(leaves);
+    }
+    leaves = representatives(leaves, is_fine);
     look_at(leaves);
     tell_errors(leaves, report);
     report.error_before = report.error;
     while (report.error > rules_.light_tolerance) {
+      if (look_closer(report, is_fine)) {
+        leaves = representatives(all_leaves(), is_fine);
+        look_at(leaves);
+        tell_errors(leaves, report);
+        continue;
+      }
       const Leaves marked = those_with_most_error(leaves);
       report.is_exhausted = marked.empty();
       if (report.is_exhausted) return;
       const Leaves fresh = split(marked);
       place(fresh);
-      look_at(fresh);
-      leaves = all_leaves();
+      const Leaves looked_at = representatives(fresh, is_fine);
+      look_at(looked_at);
+      std::erase_if(leaves, [&](std::size_t leaf) { return !forest_.elements()[leaf].is_leaf(); });
+      leaves.insert(leaves.end(), looked_at.begin(), looked_at.end());
       tell_errors(leaves, report);
       watch_.advance(Stage::refine, std::min(1.0, rules_.light_tolerance / report.error));
     }
+  }
+
+  /// Whether kinds that seemed fine by a sample have to be looked at whole after all.
+  bool look_closer(const RefineReport& report, OfKinds& is_fine) const {
+    const auto exceeds = [&](std::size_t k) {
+      return report.error_of_kind[k] > rules_.light_tolerance;
+    };
+    bool is_needed = exceeds(mesh_kind_glints), were_fine = false;
+    for (std::size_t k = 0; k < mesh_kind_glints; ++k) {
+      is_needed |= is_fine[k] && exceeds(k);
+      were_fine |= is_fine[k];
+    }
+    if (is_needed) is_fine.fill(false);
+    return is_needed && were_fine;
   }
 
   /// Of every pilot and kind above the tolerance.
   Leaves those_with_most_error(const Leaves& leaves) const {
     Leaves marked;
     for (const Look& look : looks_) {
-      const auto errors = relative_errors(look, leaves);
-      for (std::size_t k = 0; k < kinds; ++k)
-        if (errors[k] > rules_.light_tolerance) mark(look, k, leaves, marked);
+      const KindErrors errors = sums_of(look).errors(leaves);
+      for (std::size_t k = 0; k < mesh_kinds; ++k)
+        if (errors[k] > rules_.light_tolerance) sums_of(look).mark(k, leaves, marked);
     }
     std::sort(marked.begin(), marked.end());
     marked.erase(std::unique(marked.begin(), marked.end()), marked.end());
     return marked;
-  }
-
-  /// The fewest leaves that together make up the marked share of what splitting can lower; none
-  /// where that is too little of the whole to be worth it.
-  void mark(const Look& look, std::size_t of_kind, const Leaves& leaves, Leaves& marked) const {
-    struct Candidate {
-      std::size_t leaf;
-      double squares;
-    };
-    std::vector<Candidate> candidates;
-    double total = 0, of_all = 0;
-    const double visible = visible_load(look, leaves);
-    for (const auto leaf : leaves) {
-      if (of_kind != glints && kind(leaf) != of_kind) continue;
-      const double squares = squares_of(look.estimates[leaf], of_kind, visible);
-      of_all += squares;
-      if (squares <= 0 || !is_large_enough(leaf)) continue;
-      candidates.push_back({leaf, squares});
-      total += squares;
-    }
-    if (total <= worth_splitting * of_all) return;
-    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-      return a.squares != b.squares ? a.squares > b.squares : a.leaf < b.leaf;
-    });
-    double sum = 0;
-    for (const auto& candidate : candidates) {
-      if (sum >= marked_share * total) break;
-      sum += candidate.squares;
-      marked.push_back(candidate.leaf);
-    }
   }
 
   bool exceeds_historic_threshold(const HistoricEstimate& e) const {
@@ -442,7 +419,7 @@ class Refinement {
   const RefineRules& rules_;
   Watch& watch_;
   Nearness nearness_;
-  std::vector<Place> places_;  ///< per element
+  std::vector<LeafPlace> places_;  ///< per element
   std::vector<Look> looks_;
 };
 

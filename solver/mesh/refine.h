@@ -25,28 +25,23 @@
 /// emitter while the disc estimate of the form factor from there is.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 
 #include "solver/base/watch.h"
 #include "solver/mesh/hierarchy.h"
+#include "solver/mesh/load_sums.h"
 #include "solver/mesh/mesh_pilot.h"
 #include "solver/mesh/oracle.h"
 
 namespace sunload {
-
-/// Kinds of surface whose light is resolved each for its own sake; glints on all of them.
-enum class MeshKind { wall, roof, near_ground, ground, other, glints };
-inline constexpr std::array<const char*, 6> mesh_kind_names{
-    "walls", "roofs", "ground near walls", "ground beyond", "others", "glints"};
 
 /// How refinement ended; errors are the pilot's estimates, 0 where it was not asked: where no patch
 /// is large enough to be split, and where a sample of a large mesh was fine.
 struct RefineReport {
   std::size_t patches_before = 0, patches = 0;
   double error_before = 0, error = 0;  ///< of the worst kind's light load, share of its mean
-  std::array<double, mesh_kind_names.size()> error_of_kind{};  ///< a fifth of that of glints
+  KindErrors error_of_kind{};          ///< a fifth of that of glints
   std::size_t pilots = 1;
   bool is_exhausted = false;  ///< stopped at `min_area_m2` above the tolerance
 };
