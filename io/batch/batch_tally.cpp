@@ -41,6 +41,7 @@ void add_realizations(BatchWriter& writer, const std::string& name,
   values.reserve(rows.size() * N);
   for (const auto& row : rows)
     for (const double value : row) values.push_back(static_cast<float>(value));
+  SUNLOAD_EXPECT(values.size() == rows.size() * N, "a value of every receiver and realization");
   writer.add({name, MergeRule::sum, ArrayType::float32, {rows.size(), N}}, values.data());
 }
 

@@ -149,6 +149,9 @@ void put_received(const ReceiverTally& stretch, std::size_t first, ReceiverTally
     put_rows(stretch.irradiance[p], first, receivers, whole.irradiance[p]);
     add_to(stretch.exposure[p], whole.exposure[p]);
     add_to(stretch.part_realization[p], whole.part_realization[p]);
+    // A part that the scene of these intervals does not have, and that of others does.
+    if (stretch.part_realization[p].empty())
+      for (auto& row : whole.part_realization[p]) row.resize(receivers, 0);
   }
   put_rows(stretch.irradiance_se, first, receivers, whole.irradiance_se);
   add_to(stretch.exposure_realization, whole.exposure_realization);

@@ -143,6 +143,39 @@ TEST_F(Seasons, GiveEveryIntervalTheLightOfItsMaterials) {
   for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(seen[i], (w[i] + s[i] + u[i]) / 3, 1e-6);
 }
 
+// Batches that lie wholly where nothing mirrors, or no lamp shines, add nothing to the errors of
+// these parts.
+TEST_F(Seasons, HaveErrorsOfPartsThatSomeOfThemLack) {
+  const std::string dull_in_winter =
+      "    paving: {diffuse: 0.3}\n    canvas: {diffuse: 0.5, sides: two, seasons: {winter: "
+      "glow}}\n"
+      "    glow: {diffuse: 0.5, sides: two, emission_w_m2: 40}\n"
+      "    mirror: {diffuse: 0.05, mirror: 0.85}\n";
+  const auto by = [&](const std::string& name, const char* batch_suns) {
+    std::string text = study(name, dull_in_winter, seasons);
+    for (const auto& [from, to] :
+         {std::pair<std::string, std::string>{"plaster: {diffuse: 0.6}",
+                                              "plaster: {diffuse: 0.6, seasons: {winter: mirror}}"},
+          {"glass: {diffuse: 0.05, mirror: 0.85}", "glass: {diffuse: 0.1}"},
+          {"batch_suns: 5", batch_suns}})
+      text.replace(text.find(from), from.size(), to);
+    folder_.write(name + ".yaml", text);
+    const Ran ran = program(folder_, {"run", name + ".yaml"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ResultReader(folder_ / ("results/" + name + "/baseline.h5"));
+  };
+  const ResultReader split = by("split", "batch_suns: 5"), whole = by("whole", "batch_suns: 24");
+  for (const char* name : {"light_load_mirror_se", "light_load_lamps_se",
+                           "sensor_light_load_mirror_se", "sensor_light_load_lamps_se"}) {
+    const auto some = split.doubles(name), one = whole.doubles(name);
+    const double most = *std::max_element(one.begin(), one.end());
+    ASSERT_EQ(some.size(), one.size());
+    for (std::size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(some[i], one[i], 1e-3 * most) << name;
+    // Beams to points have no noise.
+    EXPECT_EQ(most > 0, std::string_view(name) != "sensor_light_load_mirror_se") << name;
+  }
+}
+
 TEST_F(Seasons, AreTheSameInShards) {
   const std::string whole = run("whole", of_seasons, seasons);
   const std::string copy = folder_ / "copy.h5";
