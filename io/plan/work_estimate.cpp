@@ -229,8 +229,8 @@ double accuracy_pilot_memory_bytes(const VariantPlan& plan, std::size_t patches)
 
 std::pair<double, double> refinement_seconds(const VariantPlan& plan, std::size_t patches) {
   if (plan.study.mesh.oracle == Oracle::none) return {0, 0};
-  // Measured on built-in streets and cities, where the mesh grows 2 … 7 times, and on large real ones,
-  // of which only some is looked at.
+  // Measured on built-in streets and cities, where the mesh grows 2 … 7 times, and on large real
+  // ones, of which only some is looked at.
   constexpr double least = 0.25, most = 4;
   const auto triangles = static_cast<double>(plan.built.scene.mesh.triangle_count());
   const double pilots = plan.family ? static_cast<double>(plan.family->pilots.size()) : 1;
