@@ -169,12 +169,18 @@ void add_sunlit(BatchWriter& writer, const ReceiverTally& tally, const std::stri
 }
 
 /// What sensors have that is the same in all bands.
+void add_sky_view(BatchWriter& writer, const std::string& prefix, const std::vector<double>& sky,
+                  const std::vector<double>& errors) {
+  for (const auto& [name, values] :
+       {std::pair{batch_array::sky_view, &sky}, std::pair{batch_array::sky_view_se, &errors}})
+    writer.add({prefix + name, MergeRule::maximum, ArrayType::float64, {values->size()}},
+               values->data());
+}
+
 void add_sensors(BatchWriter& writer, const BatchTally& tally, const SeenOnce& seen) {
   add_sunlit(writer, tally.sensors, sensor_prefix);
-  const auto &sky = seen.sensor_sky_view_factor, &backs = seen.sensor_backs;
-  writer.add(
-      {sensor_prefix + batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {sky.size()}},
-      sky.data());
+  add_sky_view(writer, sensor_prefix, seen.sensor_sky_view_factor, seen.sensor_sky_view_factor_se);
+  const auto& backs = seen.sensor_backs;
   writer.add({batch_array::sensor_backs, MergeRule::maximum, ArrayType::float64, {backs.size()}},
              backs.data());
 }
@@ -252,11 +258,12 @@ void add_counts(BatchWriter& writer, const SolverRules& rules) {
 
 SeenOnce seen_once(const TracedScene& traced) {
   SeenOnce seen;
-  seen.sky_view_factor = traced.sky_view_factor();
-  for (const auto& ends : traced.sensors.lines.pooled.ends) {
-    seen.sensor_sky_view_factor.push_back(static_cast<double>(ends.sky));
+  seen.sky_view_factor = sky_view_factors(traced.patches.lines.pooled);
+  seen.sky_view_factor_se = sky_view_errors(traced.patches.lines);
+  seen.sensor_sky_view_factor = sky_view_factors(traced.sensors.lines.pooled);
+  seen.sensor_sky_view_factor_se = sky_view_errors(traced.sensors.lines);
+  for (const auto& ends : traced.sensors.lines.pooled.ends)
     seen.sensor_backs.push_back(static_cast<double>(ends.fate.backs));
-  }
   seen.bounces = traced.bounces;
   return seen;
 }
@@ -269,7 +276,9 @@ SeenOnce mean_seen(const std::vector<SeenOnce>& scenes, const std::vector<double
   };
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     add(scenes[s].sky_view_factor, shares[s], mean.sky_view_factor);
+    add(scenes[s].sky_view_factor_se, shares[s], mean.sky_view_factor_se);
     add(scenes[s].sensor_sky_view_factor, shares[s], mean.sensor_sky_view_factor);
+    add(scenes[s].sensor_sky_view_factor_se, shares[s], mean.sensor_sky_view_factor_se);
     add(scenes[s].sensor_backs, shares[s], mean.sensor_backs);
     mean.bounces = std::max(mean.bounces, scenes[s].bounces);
   }
@@ -319,7 +328,6 @@ void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
                  const BatchParts& parts, const WorkDone& work,
                  std::optional<double> irradiance_relative, const StoredSeries& stored) {
   const Hierarchy& hierarchy = traced.hierarchy();
-  const std::size_t N = hierarchy.patch_count();
   const auto prefixes = band_prefixes(traced.rules.bands);
   for (std::size_t b = 0; b < bands.size(); ++b)
     add_band(writer, bands[b], hierarchy, mesh, prefixes[b], stored);
@@ -332,8 +340,7 @@ void add_tallies(BatchWriter& writer, const std::vector<BatchTally>& bands,
   }
   add_sunlit(writer, bands.front(), "");
   if (!bands.front().sensors.sunlit_s.empty()) add_sensors(writer, bands.front(), seen);
-  writer.add({batch_array::sky_view, MergeRule::maximum, ArrayType::float64, {N}},
-             seen.sky_view_factor.data());
+  add_sky_view(writer, "", seen.sky_view_factor, seen.sky_view_factor_se);
   const double bounces = seen.bounces;
   writer.add({batch_array::bounces, MergeRule::maximum, ArrayType::float64, {1}}, &bounces);
   add_counts(writer, traced.rules);

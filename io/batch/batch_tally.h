@@ -14,13 +14,14 @@ namespace sunload {
 
 /// Names of arrays that merge needs but the result does not show.
 namespace batch_array {
-inline constexpr const char* exposure = "exposure";         ///< [R, N] J m-2
-inline constexpr const char* ledger = "ledger";             ///< [R, 9] J: terms, residual
-inline constexpr const char* outgoing = "outgoing";         ///< [N] J m-2
-inline constexpr const char* sunlit = "sunlit";             ///< [N] s
-inline constexpr const char* maximum = "irradiance_max";    ///< [N] W m-2
-inline constexpr const char* sky_view = "sky_view_factor";  ///< [N]
-inline constexpr const char* bounces = "bounces";           ///< [1]
+inline constexpr const char* exposure = "exposure";               ///< [R, N] J m-2
+inline constexpr const char* ledger = "ledger";                   ///< [R, 9] J: terms, residual
+inline constexpr const char* outgoing = "outgoing";               ///< [N] J m-2
+inline constexpr const char* sunlit = "sunlit";                   ///< [N] s
+inline constexpr const char* maximum = "irradiance_max";          ///< [N] W m-2
+inline constexpr const char* sky_view = "sky_view_factor";        ///< [N]
+inline constexpr const char* sky_view_se = "sky_view_factor_se";  ///< [N]
+inline constexpr const char* bounces = "bounces";                 ///< [1]
 /// Per patch: lines in the mean, direct samples, and samples of the first shot where a pilot chose
 /// them.
 inline constexpr const char* counts = "counts";
@@ -93,6 +94,8 @@ struct StoredSeries {
 /// over it.
 struct SeenOnce {
   std::vector<double> sky_view_factor, sensor_sky_view_factor;
+  /// Their standard errors; of means: the means of them, since lines are the same at all times.
+  std::vector<double> sky_view_factor_se, sensor_sky_view_factor_se;
   std::vector<double> sensor_backs;  ///< share of a sensor's lines that met backs
   int bounces = 0;                   ///< the most
 };

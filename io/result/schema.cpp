@@ -102,6 +102,7 @@ constexpr std::array table{
     ResultVariable{"irradiance_max", "patch", float64, w_m2, total, "largest irradiance of the series", "", "time: maximum"},
     ResultVariable{"irradiance_max_of_mean", "patch", float64, w_m2, total, "largest irradiance of the bands' mean, of light in bands", "", "time: maximum"},
     ResultVariable{"sky_view_factor", "patch", float64, "1", total, "cosine-weighted share of the hemisphere that is sky"},
+    ResultVariable{"sky_view_factor_se", "patch", float64, "1", total, "standard error of sky_view_factor"},
     ResultVariable{"patch_lines", "patch", float64, "1", total, "lines that the patch cast, over all realizations"},
     ResultVariable{"power_load", "patch", float64, kwh_m2, total, "outgoing diffuse energy per area: reflected and emitted"},
     ResultVariable{"diffuse_reflectance", "patch", float64, "1", total, "share of incident light that is reflected diffusely; not where seasons change it"},
@@ -140,6 +141,7 @@ constexpr std::array table{
     ResultVariable{"sensor_irradiance_max", "sensor", float64, w_m2, total, "largest irradiance of the sensor's series", "", "time: maximum"},
     ResultVariable{"sensor_irradiance_max_of_mean", "sensor", float64, w_m2, total, "largest irradiance of the bands' mean", "", "time: maximum"},
     ResultVariable{"sensor_sky_view_factor", "sensor", float64, "1", total, "cosine-weighted share of the sensor's hemisphere that is sky"},
+    ResultVariable{"sensor_sky_view_factor_se", "sensor", float64, "1", total, "standard error of sensor_sky_view_factor"},
 
     // Totals of parts of the period.
     ResultVariable{"month", "month", text, "", division, "month of the site's civil time, as 2026-06"},
@@ -344,8 +346,9 @@ std::vector<std::string> dimension_names(const ResultVariable& variable) {
 }
 
 bool is_of_scene(std::string_view dataset) {
-  return dataset.ends_with("sky_view_factor") || dataset == "patch_lines" ||
-         dataset == "diffuse_reflectance" || dataset == "emitted_exitance";
+  return dataset.ends_with("sky_view_factor") || dataset.ends_with("sky_view_factor_se") ||
+         dataset == "patch_lines" || dataset == "diffuse_reflectance" ||
+         dataset == "emitted_exitance";
 }
 
 std::string largest_of_mean_dataset(const std::string& largest) { return largest + "_of_mean"; }

@@ -90,6 +90,7 @@ void write_received(BandWriter& writer, const Totals& totals, const std::string&
     writer.write_once(largest_of_mean_dataset(prefix + "irradiance_max"),
                       totals[prefix + batch_array::maximum]);
   writer.write_once(prefix + "sky_view_factor", totals[prefix + batch_array::sky_view]);
+  writer.write_once(prefix + "sky_view_factor_se", totals[prefix + batch_array::sky_view_se]);
 }
 
 void write_loads(BandWriter& writer, const Totals& totals, const ResultGeometry& geometry,

@@ -95,10 +95,10 @@ inline constexpr double arrays_of_realizations = 4;       ///< doubles of a patc
 
 // Disk.
 inline constexpr double stored_bytes_per_value = 3.2;
-inline constexpr double batch_bytes_per_patch = 80, bytes_per_batch = 1e4;
+inline constexpr double batch_bytes_per_patch = 88, bytes_per_batch = 1e4;
 /// Of the result: geometry, what it has once and of each kind of light, and measures with their
 /// times; names, text and tables; sun, sky and ledger of an interval, in batches and result.
-inline constexpr double geometry_bytes_per_patch = 110, result_bytes_per_patch = 40,
+inline constexpr double geometry_bytes_per_patch = 110, result_bytes_per_patch = 48,
                         result_bytes_per_kind = 16, bytes_per_measure = 24,
                         bytes_per_result = 1.3e5, stored_bytes_per_interval = 300;
 /// The prepared file, of each realization and of all together: beginnings of links and ends of

@@ -8,6 +8,7 @@
 #include "geo/base/check.h"
 #include "solver/base/rng.h"
 #include "solver/base/threads.h"
+#include "solver/light/tally.h"
 #include "solver/lines/line_bundle.h"
 #include "solver/lines/line_follower.h"
 #include "solver/lines/line_row.h"
@@ -23,6 +24,22 @@ LineSet empty_line_set(std::size_t rows, std::size_t elements, std::size_t cells
           std::vector<double>(any_lamps ? rows : 0),
           {},
           false};
+}
+
+std::vector<double> sky_view_factors(const LineSet& lines) {
+  std::vector<double> shares;
+  for (const LineEnds& ends : lines.ends) shares.push_back(static_cast<double>(ends.sky));
+  return shares;
+}
+
+std::vector<double> sky_view_errors(const Lines& lines) {
+  std::vector<double> errors, of_realizations(lines.realizations.size());
+  for (std::size_t row = 0; row < lines.pooled.ends.size(); ++row) {
+    for (std::size_t r = 0; r < of_realizations.size(); ++r)
+      of_realizations[r] = static_cast<double>(lines.realizations[r].ends[row].sky);
+    errors.push_back(mean_error(of_realizations).standard_error);
+  }
+  return errors;
 }
 
 namespace {

@@ -99,6 +99,11 @@ struct Lines {
   std::uint64_t rays = 0;         ///< cast, chains included
 };
 
+/// Share of the hemisphere of each row's receiver that is sky, weighted by the cosine.
+std::vector<double> sky_view_factors(const LineSet& lines);
+/// The standard error of that by all lines, from the realizations.
+std::vector<double> sky_view_errors(const Lines& lines);
+
 /// Traces all lines. Cost: a ray for each line of every patch, and as many shadow rays where there
 /// are bright surfaces. Throws Interrupted.
 Lines trace_lines(const Scene& scene, const Hierarchy& hierarchy, const RayCaster& caster,

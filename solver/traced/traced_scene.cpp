@@ -131,12 +131,6 @@ bool TracedScene::has_part(Part part) const {
   return true;
 }
 
-std::vector<double> TracedScene::sky_view_factor() const {
-  std::vector<double> share;
-  for (const auto& ends : patches.lines.pooled.ends) share.push_back(static_cast<double>(ends.sky));
-  return share;
-}
-
 LineRules line_rules(const SolverRules& rules) {
   return {.lines_per_patch = rules.lines_per_patch,
           .lines_of_patch = rules.lines_of_patch,

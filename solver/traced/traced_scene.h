@@ -51,7 +51,6 @@ struct TracedScene {
   /// Directions in which the scene's mirrors face.
   std::size_t mirror_orientations() const { return mirrors.reflecting(); }
   /// Cosine-weighted share of the hemisphere above each patch that is sky.
-  std::vector<double> sky_view_factor() const;
 
   const Scene& scene;
   SolverRules rules;

@@ -58,6 +58,7 @@ const nlohmann::json promised = {
     {"sun_hours", {"patch", "h"}},
     {"irradiance_max", {"patch", "W m-2"}},
     {"sky_view_factor", {"patch", "1"}},
+    {"sky_view_factor_se", {"patch", "1"}},
     {"power_load", {"patch", "kWh m-2"}},
     {"diffuse_reflectance", {"patch", "1"}},
     {"facade_irradiance", {"time facade", "W m-2"}},

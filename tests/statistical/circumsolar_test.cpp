@@ -253,7 +253,7 @@ TEST(Circumsolar, LowersTheErrorOfTheStreet) {
   const Hierarchy& h = traced->hierarchy();
   const std::size_t patches = h.patch_count();
   const SunSampler sampler(h, traced->caster, {rules.direct_samples, rules.realizations, 1});
-  const auto sky_view = traced->sky_view_factor();
+  const auto sky_view = sky_view_factors(traced->patches.lines.pooled);
 
   for (const std::size_t hour : {1u, 3u, 6u}) {
     const auto block =

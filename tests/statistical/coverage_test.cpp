@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <functional>
@@ -88,6 +89,31 @@ TEST(Coverage, OfAFormFactor) {
                  return s.means([&](std::size_t i) { return s.patches[i].triangle < 2; });
                }),
       F);
+}
+
+// What a patch sees of the sky beside the same square: its halves are alike.
+TEST(Coverage, OfASkyViewFactor) {
+  SceneBuilder builder;
+  const int black = builder.material({"black", 0, 0, 0});
+  builder.quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, black);
+  builder.quad({0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}, black);
+  constexpr double truth = 1 - 0.19982489569839;
+  const boost::math::students_t student(run_rules(1).realizations - 1);
+  const double t = quantile(complement(student, (1 - level) / 2));
+  std::vector<Solved> all;
+  for (int run = 0; run < runs; ++run)
+    all.push_back(solve(builder.scene(), {one_second({0, 0, -1}, 0)},
+                        run_rules(1000 + static_cast<std::uint64_t>(run))));
+  const auto covered_by = [&](double width) {
+    return static_cast<double>(std::count_if(all.begin(), all.end(), [&](const Solved& solved) {
+      return std::abs(solved.sky_view[0] - truth) <= width * t * solved.sky_view_se[0];
+    }));
+  };
+  const CountInterval interval = accepted_counts(runs, level);
+  std::cout << "sky view: " << covered_by(1) << " of " << runs << " intervals hold the truth\n";
+  EXPECT_TRUE(interval.contains(covered_by(1))) << covered_by(1);
+  EXPECT_FALSE(interval.contains(covered_by(std::sqrt(run_rules(1).realizations))));
+  EXPECT_FALSE(interval.contains(covered_by(1 / std::sqrt(run_rules(1).realizations))));
 }
 
 // Direct sun: the shadow line of a screen, which a fifth of the light passes by chance, halves a

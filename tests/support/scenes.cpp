@@ -202,7 +202,8 @@ std::vector<Solved> solved_bands(const Scene& scene, const std::vector<IntervalL
       solved.corners.push_back({traced->hierarchy().corner(i, 0), traced->hierarchy().corner(i, 1),
                                 traced->hierarchy().corner(i, 2)});
     solved.tally = std::move(tally);
-    solved.sky_view = traced->sky_view_factor();
+    solved.sky_view = sky_view_factors(traced->patches.lines.pooled);
+    solved.sky_view_se = sky_view_errors(traced->patches.lines);
     solved.bounces = traced->bounces;
     solved.work = work;
     bands.push_back(std::move(solved));

@@ -69,7 +69,7 @@ struct Solved {
   std::vector<Patch> patches;
   std::vector<std::array<Vec3, 3>> corners;  ///< of patches
   BatchTally tally;
-  std::vector<double> sky_view;
+  std::vector<double> sky_view, sky_view_se;
   int bounces = 0;
   WorkDone work;
   /// Area-weighted mean irradiance over the chosen patches, per realization.
