@@ -12,6 +12,7 @@
 #include "io/base/name_pattern.h"
 #include "io/plan/material_assign.h"
 #include "io/plan/planner.h"
+#include "io/plan/scene_build.h"
 
 namespace sunload {
 
@@ -54,7 +55,9 @@ bool MaterialUses::is_used_anywhere(const std::string& material) {
         if (!defines(variant, material)) return false;
         if (given_by_study(variant.scene).contains(material)) return true;
         try {
-          return made_of(planner_.scene_uncovered(variant).scene.mesh).contains(material);
+          const auto of_sources = materials_of_parallel_sources(variant.scene);
+          return std::find(of_sources.begin(), of_sources.end(), material) != of_sources.end() ||
+                 made_of(planner_.scene_uncovered(variant).scene.mesh).contains(material);
         } catch (const InputError&) {
           return true;  // its scene cannot be made, which is told where it is planned
         }
@@ -73,7 +76,7 @@ void MaterialUses::warn_of_idle(VariantPlan& plan) {
     const auto near = near_names(m.name, {used.begin(), used.end()});
     plan.built.warnings.push_back(
         message(m.where, fmt::format("material '{}' is used by nothing", m.name),
-                "no surface, rule, season or ground of the scene has it",
+                "no surface, rule, season or ground of the scene has it, nor do parallel sources",
                 near.empty() ? "give it by scene.assign, or remove it"
                              : fmt::format("did you mean '{}'?", fmt::join(near, "', '"))));
   }

@@ -166,13 +166,16 @@ Site resolve_site(const Study& study, const PolygonModel& model, BuiltScene& bui
   return site;
 }
 
+PolygonModel model_of_parallel_sources(const SceneStudy& scene) {
+  return read_scene_file(scene.parallel_sources, {scene.up, scene.unit_m, scene.lod,
+                                                  scene.vrml_colour, scene.emission_scale_w});
+}
+
 /// Parallel emitters: of the file's materials only what they emit is read.
 ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScene& built) {
   const SceneStudy& scene = study.scene;
   if (scene.parallel_sources.empty()) return {};
-  const PolygonModel model = read_scene_file(
-      scene.parallel_sources,
-      {scene.up, scene.unit_m, scene.lod, scene.vrml_colour, scene.emission_scale_w});
+  const PolygonModel model = model_of_parallel_sources(scene);
   built.files.insert(built.files.end(), model.files.begin(), model.files.end());
   const Mesh mesh =
       prepare(model,
@@ -412,6 +415,13 @@ BuiltScene build_scene(const Study& study) {
   BuiltScene built = scene_uncovered(study, prepared, covers_of(study, prepared));
   give_materials(study, built);
   return built;
+}
+
+std::vector<std::string> materials_of_parallel_sources(const SceneStudy& scene) {
+  std::vector<std::string> names;
+  if (scene.parallel_sources.empty()) return names;
+  for (const FileMaterial& m : model_of_parallel_sources(scene).materials) names.push_back(m.name);
+  return names;
 }
 
 }  // namespace sunload

@@ -42,6 +42,9 @@ BuiltScene build_scene(const Study& study);
 
 /// The first of its steps: reads and prepares. Materials and their rules have no part in this.
 BuiltScene scene_before_materials(const Study& study);
+/// Names of materials in the file of `scene.parallel_sources`, where there is one. Throws
+/// InputError where it cannot be read.
+std::vector<std::string> materials_of_parallel_sources(const SceneStudy& scene);
 /// Turns a prepared scene to the north that `study` gives; in a scene without CRS nothing else
 /// depends on north.
 void turn_to_north(const Study& study, BuiltScene& built);

@@ -293,6 +293,20 @@ std::string mesh_error(const ResultReader& result, const PatchGroups& groups,
                   weighted_quantile(percent, once, upper_quantile)));
 }
 
+/// What the light load tells, and what falls on sensors; of a part of the period that no merged
+/// batch has light of, that there is none.
+std::string light(const ResultReader& result, const PatchGroups& groups) {
+  const auto load = result.doubles("light_load");
+  if (!load.empty() &&
+      std::all_of(load.begin(), load.end(), [](double x) { return std::isnan(x); }))
+    return info_line("light load", "not known: no batch that was merged has light of " +
+                                       (result.chosen().any() ? result.chosen().words()
+                                                              : std::string("the period")));
+  return accuracy(result, load) + mesh_error(result, groups, load) +
+         lighting_analysis(result, groups, load) + parts_of_period(result, groups) +
+         facades(result, groups, load) + sensors(result);
+}
+
 std::string runtime(const ResultReader& result) {
   std::string words;
   for (const char* stage :
@@ -314,19 +328,13 @@ std::string band_words(const ResultReader& result) {
 
 std::string info_text(const ResultReader& result) {
   const PatchGroups groups(result);
-  const auto load = result.doubles("light_load");
   std::string text = heading(result);
   text += period(result);
   text += orientation(result);
   text += size(result, groups);
   text += info_line("covered", result.text_attribute("covered"));
   text += info_line("bands", band_words(result));
-  text += accuracy(result, load);
-  text += mesh_error(result, groups, load);
-  text += lighting_analysis(result, groups, load);
-  text += parts_of_period(result, groups);
-  text += facades(result, groups, load);
-  text += sensors(result);
+  text += light(result, groups);
   text += result.chosen().any()
               ? info_line("energy", "of the whole period: without " + result.chosen().words())
               : energy_text(result);

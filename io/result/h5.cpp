@@ -411,8 +411,38 @@ bool File::has(const std::string& dataset) const {
   return checked(H5Lexists(id(), dataset.c_str(), H5P_DEFAULT), dataset) > 0;
 }
 
-Dataset File::dataset(const std::string& name) const {
-  return Dataset(handle(H5Dopen2(*file_, name.c_str(), H5P_DEFAULT), &H5Dclose, "dataset " + name));
+namespace {
+
+/// Bytes of all chunks that hold parts of one row; 0 of what is not in chunks.
+std::size_t bytes_of_row_chunks(hid_t dataset, const std::vector<std::size_t>& shape) {
+  const auto creation = handle(H5Dget_create_plist(dataset), &H5Pclose, "layout");
+  if (shape.empty() || H5Pget_layout(*creation) != H5D_CHUNKED) return 0;
+  std::vector<hsize_t> chunk(shape.size());
+  checked(H5Pget_chunk(*creation, static_cast<int>(chunk.size()), chunk.data()), "layout");
+  const auto type = handle(H5Dget_type(dataset), &H5Tclose, "type");
+  std::size_t bytes = H5Tget_size(*type) * chunk[0];
+  for (std::size_t d = 1; d < chunk.size(); ++d)
+    bytes *= (shape[d] + chunk[d] - 1) / chunk[d] * chunk[d];
+  return bytes;
+}
+
+}  // namespace
+
+Dataset File::dataset(const std::string& name, Access access) const {
+  const auto open = [&](hid_t properties) {
+    return handle(H5Dopen2(*file_, name.c_str(), properties), &H5Dclose, "dataset " + name);
+  };
+  constexpr std::size_t usual = std::size_t{1} << 20, most = std::size_t{1} << 30;
+  std::size_t bytes = 0;
+  {  // While it is open, another opening has its cache.
+    Dataset opened(open(H5P_DEFAULT));
+    if (access == Access::rows) bytes = bytes_of_row_chunks(opened.id(), opened.shape());
+    if (bytes <= usual || bytes > most) return opened;
+  }
+  const auto properties = handle(H5Pcreate(H5P_DATASET_ACCESS), &H5Pclose, "access");
+  constexpr std::size_t slots = 10'007;  // a prime, ten times the chunks of most rows
+  checked(H5Pset_chunk_cache(*properties, slots, bytes, H5D_CHUNK_CACHE_W0_DEFAULT), "access");
+  return Dataset(open(*properties));
 }
 
 std::vector<std::string> File::names() const {

@@ -115,7 +115,10 @@ class File : public Object {
 
   Dataset create_dataset(const std::string& name, const DatasetSpec& spec);
   bool has(const std::string& dataset) const;
-  Dataset dataset(const std::string& name) const;
+  /// With `rows` the dataset, while it is kept, holds the chunks that a row lies in (1 GiB at
+  /// most): each is inflated once where rows are read one after the other.
+  enum class Access { whole, rows };
+  Dataset dataset(const std::string& name, Access access = Access::whole) const;
   std::vector<std::string> names() const;
   /// End of the data of HDF5; what lies behind it is none of the library's business.
   std::uint64_t end() const;

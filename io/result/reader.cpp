@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -46,6 +47,7 @@ struct ResultReader::File {
   std::optional<PartOfPeriod> part = {};  ///< of the period, where one is chosen
   /// The total that was asked for last: realizations are asked for one by one.
   std::pair<std::string, std::vector<double>> last_total = {};
+  mutable std::deque<std::pair<std::string, h5::Dataset>> open_by_rows = {};
 
   bool is_of_part(const std::string& dataset) const { return part && part->tells(dataset); }
   /// A total of the chosen part of the period.
@@ -114,11 +116,23 @@ struct ResultReader::File {
     throw InputError({path}, what, why);
   }
 
+  /// A dataset that is read by its rows stays open until two others are.
+  const h5::Dataset& by_rows(const std::string& dataset) const {
+    constexpr std::size_t most_open = 2;
+    const auto found = std::find_if(open_by_rows.begin(), open_by_rows.end(),
+                                    [&](const auto& open) { return open.first == dataset; });
+    if (found != open_by_rows.end()) return found->second;
+    if (open_by_rows.size() == most_open) open_by_rows.pop_front();
+    return open_by_rows.emplace_back(dataset, file.dataset(dataset, h5::File::Access::rows)).second;
+  }
+
   /// Does something with a dataset; every error names file and dataset.
   template <class Action>
-  auto with(const std::string& dataset, const Action& action) const {
+  auto with(const std::string& dataset, const Action& action,
+            h5::File::Access access = h5::File::Access::whole) const {
     try {
       if (!file.has(dataset)) refuse("there is no dataset " + dataset, "");
+      if (access == h5::File::Access::rows) return action(by_rows(dataset));
       return action(file.dataset(dataset));
     } catch (const h5::Error& error) {
       refuse("dataset " + dataset + " cannot be read", error.what());
@@ -281,10 +295,13 @@ std::vector<double> ResultReader::rows(const std::string& dataset, std::size_t f
     const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first * of_row);
     return {begin, begin + static_cast<std::ptrdiff_t>(count * of_row)};
   }
-  return file_->with(dataset, [&](const h5::Dataset& data) {
-    return file_->without_bands(dataset, file_->possible(dataset, data.rows(first, count)),
-                                data.shape());
-  });
+  return file_->with(
+      dataset,
+      [&](const h5::Dataset& data) {
+        return file_->without_bands(dataset, file_->possible(dataset, data.rows(first, count)),
+                                    data.shape());
+      },
+      h5::File::Access::rows);
 }
 
 std::string ResultReader::units(const std::string& dataset) const {

@@ -225,9 +225,9 @@ constexpr std::array table{
     ResultVariable{"power_absorbed_se", "", float64, "kWh", ledger, "standard error of the time sum of power_absorbed"},
     ResultVariable{"power_transmitted_se", "", float64, "kWh", ledger, "standard error of the time sum of power_transmitted"},
     ResultVariable{"power_escaped_se", "", float64, "kWh", ledger, "standard error of the time sum of power_escaped"},
-    ResultVariable{"power_unshot_se", "", float64, "kWh", ledger, "standard error of the time sum of power_unshot"},
+    ResultVariable{"power_unshot_se", "", float64, "kWh", ledger, "standard error of the time sum of power_unshot at the number of bounces that were followed, which other lines may make one more or less"},
     ResultVariable{"power_residual_se", "", float64, "kWh", ledger, "standard error of the time sum of power_residual; far too small now and then with fewer than 4 lines per patch and realization"},
-    ResultVariable{"power_estimated_se", "", float64, "kWh", ledger, "standard error of the time sum of power_estimated, without that of the share that lines tell (as large again)"},
+    ResultVariable{"power_estimated_se", "", float64, "kWh", ledger, "standard error of the time sum of power_estimated, without that of the share that lines tell (nearly twice as large), and at the number of bounces that were followed"},
 
     ResultVariable{"study_yaml", "", text, "", study, "the study, verbatim"},
 };

@@ -62,6 +62,8 @@ class EdgePair {
 
  private:
   static constexpr int deepest = 40;
+  /// Of the inner integral: a difference of numbers of about 1, however short its edge is.
+  static constexpr double rounding = 1e-15;
 
   double on(double low, double high) const {
     double sum = 0;
@@ -72,7 +74,8 @@ class EdgePair {
   double refined(double low, double high, double whole, int depth) const {
     const double middle = (low + high) / 2, first = on(low, middle), second = on(middle, high);
     const double halves = first + second;
-    if (depth == 0 || std::abs(halves - whole) <= tolerance_) return halves;
+    const double least = std::max(tolerance_, rounding * (high - low));
+    if (depth == 0 || std::abs(halves - whole) <= least) return halves;
     return refined(low, middle, first, depth - 1) + refined(middle, high, second, depth - 1);
   }
 

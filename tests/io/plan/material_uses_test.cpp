@@ -53,6 +53,14 @@ TEST_F(MaterialUse, WarnsOfSlipsInEveryVariantThatHasThem) {
   EXPECT_TRUE(of_one[0].starts_with("a: "));
 }
 
+TEST_F(MaterialUse, IsOfParallelSources) {
+  folder_.write("lamp.obj", "v -1 -1 9\nv 1 -1 9\nv 1 1 9\no sheet\nusemtl beam\nf 1 3 2\n");
+  const auto all = warned("beam: {diffuse: 0, emission_w_m2: 500}, bean: {diffuse: 0.1}",
+                          "  parallel_sources: lamp.obj\n");
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_NE(all[0].find("material 'bean' is used by nothing"), all[0].npos) << all[0];
+}
+
 TEST_F(MaterialUse, IsOfFacesRulesSeasonsAndGround) {
   using None = std::vector<std::string>;
   EXPECT_EQ(warned("plaster: {diffuse: 0.4}, grass: {diffuse: 0.2}", ""), None{});

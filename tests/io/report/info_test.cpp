@@ -69,6 +69,14 @@ TEST(Info, ASceneInTheDarkHasNoAccuracy) {
   EXPECT_EQ(text.find("nan"), std::string::npos) << text;
 }
 
+TEST(Info, LightThatNoBatchBroughtIsNotKnown) {
+  SmallResult without;
+  without.load = [](const std::string&, Vec3, std::size_t) { return std::nan(""); };
+  const auto text = info_text(ResultReader(write_small_result(without, "info_without")));
+  expect_in(text, "light load   not known: no batch that was merged has light of the period");
+  EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+}
+
 TEST(Info, IntervalOfATimeIsFoundInCivilTimeAndUtc) {
   const ResultReader result(write_small_result(SmallResult{}, "info_time"));
   EXPECT_EQ(brightest_interval(result), 1u);
