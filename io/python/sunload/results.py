@@ -16,6 +16,8 @@ import xarray
 
 from . import program
 
+ROWS_AT_ONCE = 256  # as many as a chunk of a series has
+
 
 def _zone(result: xarray.Dataset) -> str:
     zone = result.attrs.get("timezone") or "UTC"
@@ -110,8 +112,18 @@ class Accessor:
             chosen &= self._of_patches(name).values == value
         if not chosen.any():
             raise ValueError(f"no patch with {by}")
-        kept = self._of_patches(quantity).isel(patch=np.flatnonzero(chosen))
-        return kept.weighted(result["patch_area"].isel(patch=np.flatnonzero(chosen))).mean("patch", keep_attrs=True)
+        values, kept = self._of_patches(quantity), np.flatnonzero(chosen)
+        area = result["patch_area"].isel(patch=kept)
+
+        def mean_of(rows: xarray.DataArray) -> xarray.DataArray:
+            return rows.load().isel(patch=kept).weighted(area).mean("patch", keep_attrs=True)
+
+        rows = values.dims[0]
+        if rows == "patch" or values.sizes[rows] <= ROWS_AT_ONCE:
+            return mean_of(values.copy(deep=False))
+        # A year of a city does not fit into memory.
+        return xarray.concat([mean_of(values.isel({rows: slice(first, first + ROWS_AT_ONCE)}))
+                              for first in range(0, values.sizes[rows], ROWS_AT_ONCE)], rows)
 
     def _of_patches(self, name: str) -> xarray.DataArray:
         result = self._result
