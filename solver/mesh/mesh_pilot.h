@@ -52,6 +52,9 @@ class MeshPilot {
   /// `lamp_form_factor` alone, as `load` has them, in a small part of its time.
   ElementLoad sources(std::size_t element, std::uint8_t side, double min_area_m2) const;
 
+  /// Whether suns are seen in mirrors, wherever that may be.
+  bool has_glints() const { return images_.any(); }
+
   /// Light load that surfaces are taken to receive where others see them, per element and side.
   void set_load(std::size_t element, std::uint8_t side, double load);
   double load_of(std::size_t element, std::uint8_t side) const {

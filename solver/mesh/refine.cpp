@@ -240,8 +240,8 @@ class Refinement {
     }
   }
 
-  /// Kinds whose error a sample of the leaves says is below the tolerance: all or none where light
-  /// comes by mirrors, which may fall on any.
+  /// Kinds whose error a sample of the leaves says is below the tolerance; all or none where suns
+  /// are seen in mirrors: their images are small, on surfaces of any kind.
   OfKinds clearly_fine(const Leaves& leaves) {
     OfKinds is_fine;
     is_fine.fill(true);
@@ -253,7 +253,10 @@ class Refinement {
     tell_errors(some, of_sample);
     for (std::size_t k = 0; k < mesh_kinds; ++k)
       is_fine[k] = of_sample.error_of_kind[k] <= clearly_below * rules_.light_tolerance;
-    if (!is_fine[mesh_kind_glints]) is_fine.fill(false);
+    const bool are_all = std::all_of(is_fine.begin(), is_fine.end(), [](bool is) { return is; });
+    const bool any_glints = std::any_of(looks_.begin(), looks_.end(),
+                                        [](const Look& look) { return look.pilot.has_glints(); });
+    if (any_glints && !are_all) is_fine.fill(false);
     return is_fine;
   }
 

@@ -34,6 +34,7 @@ class SunImages {
   SunImages(const Scene& scene, const RayCaster& caster, const PeriodLight& light,
             std::uint64_t seed);
 
+  bool any() const { return !of_both_.empty() || !of_half_[0].empty() || !of_half_[1].empty(); }
   const std::vector<SunImage>& of_both_halves() const { return of_both_; }
   const std::vector<SunImage>& of_half(std::size_t half) const { return of_half_[half]; }
 
