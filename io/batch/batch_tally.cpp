@@ -168,7 +168,7 @@ void add_sunlit(BatchWriter& writer, const ReceiverTally& tally, const std::stri
       tally.sunlit_s.data());
 }
 
-/// What sensors have that is the same in all bands.
+/// What is seen of the sky, with its errors: `prefix` is of patches or of sensors.
 void add_sky_view(BatchWriter& writer, const std::string& prefix, const std::vector<double>& sky,
                   const std::vector<double>& errors) {
   for (const auto& [name, values] :
@@ -177,6 +177,7 @@ void add_sky_view(BatchWriter& writer, const std::string& prefix, const std::vec
                values->data());
 }
 
+/// What sensors have that is the same in all bands.
 void add_sensors(BatchWriter& writer, const BatchTally& tally, const SeenOnce& seen) {
   add_sunlit(writer, tally.sensors, sensor_prefix);
   add_sky_view(writer, sensor_prefix, seen.sensor_sky_view_factor, seen.sensor_sky_view_factor_se);

@@ -50,7 +50,6 @@ struct TracedScene {
   bool has_part(Part part) const;
   /// Directions in which the scene's mirrors face.
   std::size_t mirror_orientations() const { return mirrors.reflecting(); }
-  /// Cosine-weighted share of the hemisphere above each patch that is sky.
 
   const Scene& scene;
   SolverRules rules;
