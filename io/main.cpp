@@ -13,6 +13,7 @@
 
 #include "geo/base/check.h"
 #include "io/base/exit_code.h"
+#include "io/base/file_aside.h"
 #include "io/base/machine.h"
 #include "io/base/standard_streams.h"
 #include "io/base/stop_signals.h"
@@ -21,7 +22,7 @@
 namespace sunload {
 namespace {
 
-/// Work that goes on where it was stopped; other commands end by the signal, as usual.
+/// Work that goes on where it was stopped; other commands end by the signal.
 bool stops_cleanly(int argc, char** argv) {
   return argc > 1 && (std::strcmp(argv[1], "run") == 0 || std::strcmp(argv[1], "merge") == 0);
 }
@@ -30,7 +31,11 @@ bool stops_cleanly(int argc, char** argv) {
 /// set up before `main` begins, which takes a good part of a second on a busy machine.
 void begin(int argc, char** argv, char**) {
   open_closed_streams();
-  if (stops_cleanly(argc, argv)) install_stop_signals();
+  if (stops_cleanly(argc, argv)) {
+    install_stop_signals();
+  } else {
+    remove_files_aside_on_signals();
+  }
 }
 
 #ifdef __GLIBC__

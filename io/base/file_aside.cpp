@@ -6,6 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
@@ -108,13 +110,33 @@ int flushed_to_disk(const std::string& path, int flags) {
   return error;
 }
 
+/// Names of the files aside that are being written, for a signal that ends the process: the handler
+/// may neither lock nor allocate. Few at a time; those beyond are left for the next run to remove.
+std::array<std::atomic<const char*>, 64> being_written{};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+void replace_one(const char* name, const char* by) {
+  for (auto& place : being_written)
+    if (const char* found = name; place.compare_exchange_strong(found, by)) return;
+}
+
+void remove_and_end(int signal) {
+  for (const auto& place : being_written)
+    if (const char* name = place.load()) ::unlink(name);
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
 }  // namespace
 
 FileAside::FileAside(std::string path)
-    : path_(std::move(path)), target_(output_target(path_)), aside_(place_aside(target_, path_)) {}
+    : path_(std::move(path)), target_(output_target(path_)), aside_(place_aside(target_, path_)) {
+  replace_one(nullptr, aside_.c_str());
+}
 
 FileAside::~FileAside() {
   if (state_ == State::writing) remove_aside();
+  replace_one(aside_.c_str(), nullptr);
 }
 
 void FileAside::remove_aside() const {
@@ -150,6 +172,11 @@ void FileAside::publish_unflushed() {
     throw_cannot_write(path_, errno);
   }
   state_ = State::published;
+}
+
+void remove_files_aside_on_signals() {
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP})
+    if (std::signal(signal, remove_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 void remove_left_aside(const std::string& folder) {

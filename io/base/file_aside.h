@@ -48,6 +48,10 @@ class FileAside {
   enum class State { writing, published } state_ = State::writing;
 };
 
+/// From now on SIGTERM, SIGINT and SIGHUP (unless ignored) end the process as before, but remove
+/// the files that it is writing aside first. For commands that do not stop at a point of their own.
+void remove_files_aside_on_signals();
+
 /// Removes what killed processes left aside in a folder (not in those below it).
 ///
 /// Other processes, also of other machines, may be writing there. A file aside

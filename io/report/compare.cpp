@@ -206,10 +206,12 @@ ComparisonRow matched_row(const Side& base, std::size_t b, const Side& variant, 
   row.difference_percent = base_load == 0 ? not_known : row.difference_kwh_m2 / base_load * 100;
   row.unmatched_area_m2 = area_alone(base, group) + area_alone(variant, group);
   row.mesh_error_kwh_m2 = std::hypot(base.common.mesh_error[b], variant.common.mesh_error[v]);
-  row.se_kwh_m2 = row.p_value = row.p_corrected = not_known;
+  row.se_kwh_m2 = row.degrees_of_freedom = row.p_value = row.p_corrected = not_known;
   if (errors == Comparison::Errors::unknown || errors == Comparison::Errors::none) return row;
   const TwoSamples samples{base.realizations[b], variant.realizations[v], errors};
-  row.se_kwh_m2 = samples.error().se;
+  const DifferenceError error = samples.error();
+  row.se_kwh_m2 = error.se;
+  row.degrees_of_freedom = error.degrees_of_freedom;
   const double least = least_difference(base_load, variant_load, least_percent);
   const double difference = std::abs(row.difference_kwh_m2);
   const bool may_be_none = difference <= least || difference <= row.mesh_error_kwh_m2;
@@ -227,7 +229,8 @@ ComparisonRow lonely_row(const Side& s, std::size_t g, Present where) {
   row.area_m2 = row.unmatched_area_m2 = group.area_m2;
   (where == Present::base ? row.base_kwh_m2 : row.variant_kwh_m2) = s.alone.load[g];
   row.difference_kwh_m2 = row.difference_percent = not_known;
-  row.se_kwh_m2 = row.p_value = row.p_corrected = row.mesh_error_kwh_m2 = not_known;
+  row.se_kwh_m2 = row.degrees_of_freedom = row.p_value = row.p_corrected = not_known;
+  row.mesh_error_kwh_m2 = not_known;
   return row;
 }
 

@@ -36,6 +36,7 @@ struct ComparisonRow {
   double difference_kwh_m2 = 0;                       ///< variant − base
   double difference_percent = 0;                      ///< of the base
   double se_kwh_m2 = 0;                               ///< standard error of the difference
+  double degrees_of_freedom = 0;                      ///< of `se_kwh_m2`, for Student's t
   /// Of a difference that is no larger, either way, than `least_percent` of the base, or than the
   /// mesh's error where that is more: of none.
   double p_value = 0;

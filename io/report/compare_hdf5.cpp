@@ -115,6 +115,8 @@ void put_groups(NetcdfFile& file, const Comparison& comparison) {
       [](const ComparisonRow& r) { return r.difference_percent; });
   put("group_difference_se", load, "standard error of the difference",
       [](const ComparisonRow& r) { return r.se_kwh_m2; });
+  put("group_degrees_of_freedom", "1", "of the standard error of the difference, for Student's t",
+      [](const ComparisonRow& r) { return r.degrees_of_freedom; });
   put("group_mesh_error", load,
       "what unlike meshes put the difference off, beside its standard error",
       [](const ComparisonRow& r) { return r.mesh_error_kwh_m2; });

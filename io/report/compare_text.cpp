@@ -247,6 +247,7 @@ std::string comparison_json(const Comparison& comparison) {
                     {key("difference_kwh_m2"), json_number(row.difference_kwh_m2)},
                     {"difference_percent", json_number(row.difference_percent)},
                     {key("se_kwh_m2"), json_number(row.se_kwh_m2)},
+                    {"degrees_of_freedom", json_number(row.degrees_of_freedom)},
                     {"paired", is_paired(comparison, row)},
                     {"p_value", json_number(row.p_value)},
                     {"p_corrected", json_number(row.p_corrected)},

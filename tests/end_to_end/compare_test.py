@@ -84,6 +84,8 @@ def test_numbers(file, base, variant, listing):
     for column, name in (("difference_kwh_m2", "group_difference"), ("se_kwh_m2", "group_difference_se"), ("area_m2", "group_area"),
                          ("p_corrected", "group_p_corrected")):
         assert np.allclose([float(row[column]) for row in rows], file[name][()], rtol=1e-8, atol=1e-12), name
+    degrees = base.attrs["realizations"] - 1
+    assert (file["group_degrees_of_freedom"][()] == degrees).all()
     assert [row["significant"] == "true" for row in rows] == list(file["group_significant"][()] == 1)
     facades = {row["name"]: float(row["difference_kwh_m2"]) for row in rows if row["group"] == "facade"}
     assert np.allclose([facades[name] for name in file["facade_name"].asstr()], file["facade_light_load_difference"][()], rtol=1e-8)

@@ -65,6 +65,14 @@ def expect_result(sunload, result):
     assert months.dims == ("month", "facade")
     assert np.allclose(months.sum("month"), result.facade_light_load, rtol=1e-5)
     assert "water" in raised(ValueError, lambda: result.sunload.mean("light_load", surface_of="water"))
+    assert "did you mean 'wall'" in raised(ValueError, lambda: result.sunload.mean("light_load", surface_of="walls"))
+    roofs = result.sunload.mean("light_load", surface_of="roof")
+    of_roofs = result.patch_area.values[result.surface_of.values == "roof"].sum()
+    both = result.sunload.mean("light_load", surface_of=["wall", "roof"])
+    assert np.isclose(both, (walls * area.sum() + roofs * of_roofs) / (area.sum() + of_roofs), rtol=1e-6)
+    south = result.isel(patch=np.arange(3))
+    assert south.sunload.mean("light_load").shape == ()
+    assert "is a part (patch)" in raised(ValueError, south.sunload.facades)
     assert "did you mean 'light_load'" in raised(ValueError, lambda: result.sunload.mean("light_lode"))
     ax = result.sunload.plot_map()
     assert len(ax.collections[0].get_paths()) == int((result.patch_normal.values[:, 2] > 1e-6).sum())
@@ -98,9 +106,12 @@ def main():
         with results["baseline"] as base, results["dark"] as dark:
             expect_result(sunload, base)
             differences = base.sunload.compare(dark)
+            assert "part (time)" in raised(ValueError, lambda: base.sunload.compare(dark.isel(time=slice(1))))
             assert (differences["difference_kwh_m2"] < 0).any() and "p_value" in differences
         # Of the same study, by its file: nothing is computed again.
-        again = sunload.Study(os.path.join(folder, "square.yaml"), folder).run(variants=["dark"])
+        again_file = os.path.join(folder, "square.yaml")
+        again = sunload.Study(again_file, folder).run(variants=["dark"])
+        assert again.paths == sunload.Study(again_file, folder).run(variants="dark").paths
         assert list(again) == ["dark"] and os.path.exists(again.paths["dark"])
         expect_errors(sunload, folder)
 

@@ -38,9 +38,11 @@ ChildProcess::ChildProcess(const std::function<void(const Hold&)>& work) {
   is_well_ = word == 'y';
 }
 
-void ChildProcess::kill() {
+void ChildProcess::kill() { end_by(SIGKILL); }
+
+void ChildProcess::end_by(int signal) {
   if (process_ < 0) return;
-  ::kill(process_, SIGKILL);
+  ::kill(process_, signal);
   wait();
 }
 

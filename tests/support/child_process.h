@@ -25,6 +25,8 @@ class ChildProcess {
   bool is_well() const { return is_well_; }
   /// SIGKILL: nothing is cleaned up. Waits for its end, as go_on() does.
   void kill();
+  /// Sends that signal, and waits for its end.
+  void end_by(int signal);
   void go_on();
 
  private:

@@ -8,7 +8,7 @@ import difflib
 import json
 import os
 import warnings
-from typing import Any, Optional, Union
+from typing import Any, Optional, Sequence, Union
 
 import numpy as np
 import pandas
@@ -53,7 +53,7 @@ def open(path: Union[str, os.PathLike]) -> xarray.Dataset:  # pylint: disable=re
         place = order[np.searchsorted(values[order], surface.values.astype(int))]
         coordinates["surface_of"] = ("patch", words[place])
     result = result.assign_coords(coordinates)
-    result.encoding["source"] = path
+    result.encoding.update(source=path, sizes=dict(result.sizes))
     return result
 
 
@@ -89,6 +89,16 @@ class Accessor:
             raise ValueError("this dataset was not opened by sunload.open")
         return path
 
+    def _whole(self) -> str:
+        """The same, for what is asked of the program. Raises ValueError where a part was chosen since: it would answer
+        for all that is in the file."""
+        path, sizes = self.path, self._result.encoding.get("sizes", {})
+        cut = [dim for dim in ("patch", "time") if dim in sizes and self._result.sizes.get(dim) != sizes[dim]]
+        if cut:
+            raise ValueError(f"this dataset is a part ({', '.join(cut)}) of {path}, which the program reads as a whole; "
+                             "take what sunload.open gave")
+        return path
+
     def facades(self) -> pandas.DataFrame:
         """Facades by name: azimuth_deg, area_m2, light_load_kwh_m2 and its standard error, … (docs/tables.md)."""
         return self._group_table("facades").set_index("name")
@@ -98,18 +108,18 @@ class Accessor:
         return self._group_table("objects").set_index("name")
 
     def _group_table(self, table: str) -> pandas.DataFrame:
-        return _rows(program.run(["info", self.path, "--" + table, "--json"]))
+        return _rows(program.run(["info", self._whole(), "--" + table, "--json"]))
 
-    def mean(self, quantity: str = "light_load", **by: str) -> xarray.DataArray:
-        """Area-weighted mean over patches, for instance mean("irradiance", surface_of="wall"). Patches that light cannot
-        reach (patch_covered) do not count. Raises ValueError where no patch is left, and for what the result does not have
+    def mean(self, quantity: str = "light_load", **by: Union[str, Sequence[str]]) -> xarray.DataArray:
+        """Area-weighted mean over patches, for instance mean("irradiance", surface_of="wall"), or of several kinds:
+        surface_of=["wall", "roof"]. Patches that light cannot reach (patch_covered) do not count. Raises ValueError where no patch is left, and for what the result does not have
         of its patches: those of `sunload.solve` have no objects, facades and kinds of surface, but `material_of`."""
         result = self._result
         chosen = np.ones(result.sizes["patch"], dtype=bool)
         if "patch_covered" in result:
             chosen &= result["patch_covered"].values == 0
         for name, value in by.items():
-            chosen &= self._of_patches(name).values == value
+            chosen &= self._chosen(name, value)
         if not chosen.any():
             raise ValueError(f"no patch with {by}")
         values, kept = self._of_patches(quantity), np.flatnonzero(chosen)
@@ -124,6 +134,21 @@ class Accessor:
         # A year of a city does not fit into memory.
         return xarray.concat([mean_of(values.isel({rows: slice(first, first + ROWS_AT_ONCE)}))
                               for first in range(0, values.sizes[rows], ROWS_AT_ONCE)], rows)
+
+    def _chosen(self, name: str, value: Union[str, Sequence[str]]) -> np.ndarray:
+        """Patches that have one of the values. Raises ValueError for a value that none has."""
+        values, asked = self._of_patches(name).values, [value] if np.isscalar(value) else list(value)
+        chosen = np.zeros(len(values), dtype=bool)
+        for one in asked:
+            has = values == one
+            if not has.any():
+                known = sorted({str(word) for word in values if str(word)})
+                near = difflib.get_close_matches(str(one), known, 1)
+                few = ", ".join(known[:8]) + (", …" if len(known) > 8 else "")
+                raise ValueError(f"no patch with {name} {one!r}; " +
+                                 (f"did you mean {near[0]!r}?" if near else f"there are {few}"))
+            chosen |= has
+        return chosen
 
     def _of_patches(self, name: str) -> xarray.DataArray:
         result = self._result
@@ -159,8 +184,8 @@ class Accessor:
     def compare(self, other: Union[xarray.Dataset, str, os.PathLike], quantity: str = "light_load") -> pandas.DataFrame:
         """Differences of `other` to this result per facade, object and surface, of the light load with errors and
         significance: what `sunload compare --csv` tells (docs/variants.md)."""
-        path = other.sunload.path if isinstance(other, xarray.Dataset) else os.fspath(other)
-        return _rows(program.run(["compare", self.path, path, "--quantity", quantity, "--json"]))
+        path = other.sunload._whole() if isinstance(other, xarray.Dataset) else os.fspath(other)
+        return _rows(program.run(["compare", self._whole(), path, "--quantity", quantity, "--json"]))
 
     def _interval_at(self, time: Any) -> int:
         """The interval that holds a time in UTC."""

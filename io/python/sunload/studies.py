@@ -122,13 +122,14 @@ class Study:
         self.report = Report(json.loads(program.run(words, self.folder)))
         return self
 
-    def run(self, variants: Sequence[str] = (), output: str = "results", resume: bool = True, overwrite: bool = False,
+    def run(self, variants: Union[str, Sequence[str]] = (), output: str = "results", resume: bool = True, overwrite: bool = False,
             threads: Optional[int] = None, progress: Optional[Progress] = None) -> Results:
         """Computes what is missing below `output` (relative to the study's folder of work) and returns the results.
 
         resume: finished results of this very study are taken as they are; overwrite: others are replaced. `progress`
         gets dicts with `variant`, `stage`, `share` (of the stage, 0 … 1), `suns_done`, `suns`, `left_s`, and others with
         `message` alone. Raises InputError, MachineError, Unfinished."""
+        variants = [variants] if isinstance(variants, str) else list(variants)
         words: List[str] = ["run", self.path, "--output", output, "--progress", "json" if progress else "none"]
         for variant in variants:
             words += ["--variant", variant]
@@ -138,7 +139,7 @@ class Study:
         program.run(words, self.folder, _listener(progress) if progress else None)
         if self.report is None:
             self.check()
-        names = list(variants) or [variant["name"] for variant in self.report["variants"]]
+        names = variants or [variant["name"] for variant in self.report["variants"]]
         place = os.path.join(self.folder, output, self.name)
         return Results({name: os.path.join(place, name + ".h5") for name in names})
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
@@ -61,6 +62,20 @@ TEST(FileAside, WhatTheDeadLeftIsRemovedAndWhatTheLivingWriteStays) {
   living.kill();
   remove_left_aside(folder.path());
   EXPECT_EQ(folder.content(), (Names{"b.batch.part-of-the-name", "c.part-1"}));
+}
+
+TEST(FileAside, IsRemovedByASignalThatEndsTheProcess) {
+  const WorkFolder folder;
+  ChildProcess writing([&](const ChildProcess::Hold& hold) {
+    remove_files_aside_on_signals();
+    const FileAside first(folder / "a.csv"), second(folder / "b.csv");
+    std::ofstream(first.aside()) << "half of it";
+    std::ofstream(second.aside()) << "half of it";
+    hold(true);
+  });
+  ASSERT_EQ(folder.content().size(), 2u);
+  writing.end_by(SIGTERM);
+  EXPECT_EQ(folder.content(), Names{});
 }
 
 TEST(FileAside, OfOtherMachinesOnlyWhatNobodyTouchedForADay) {
