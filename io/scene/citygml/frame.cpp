@@ -98,9 +98,10 @@ Vec3 exchanged(Vec3 p) { return {p.y, p.x, p.z}; }
 /// Whether the first number of positions is a northing or a latitude.
 bool is_north_first(const MapAxes& axes, const SrsName& name, const Sample& sample,
                     NoteCounter& notes) {
-  if (!axes.is_north_first() || !sample.first) return false;
+  if (!sample.first) return false;
   const Vec3 p = *sample.first;
   const bool fits_exchanged = axes.is_in_use_at(p.y, p.x), fits = axes.is_in_use_at(p.x, p.y);
+  if (!axes.is_north_first() && (fits || !fits_exchanged)) return false;
   bool north_first = name.has_official_axes;
   std::string because = "its form says so";
   if (fits != fits_exchanged) {
@@ -135,7 +136,6 @@ CityFrame::CityFrame(const CityDocument& document, CityCoordinates& coordinates,
     document.file().fail(
         document.srs_element(), "positions are in '" + shortened(document.srs_name()) + "'",
         "it is geocentric: up is nowhere z", "convert the model to a map projection such as UTM");
-  if (!axes.is_north_first() && !axes.is_in_degrees()) return;
   const Sample sample = sample_of(document, coordinates);
   is_north_first_ = is_north_first(axes, name, sample, notes);
   if (!axes.is_in_degrees() || !sample.first) return;

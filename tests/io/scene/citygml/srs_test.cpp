@@ -60,6 +60,17 @@ TEST(SceneCityGmlSrs, TheAreaOfUseTellsTheOrderOfAxes) {
     }
 }
 
+TEST(SceneCityGmlSrs, NorthFirstInASystemThatBeginsInTheEastIsReadSoWhereItsAreaSaysSo) {
+  for (const bool y_first : {false, true}) {
+    const auto model = read_text("utm.gml", town("EPSG:25832", 512345, 5412345, y_first));
+    EXPECT_EQ(first_corner(model), (Vec3{512345, 5412345, 30}));
+    EXPECT_EQ(has_note(model, "taken as northing, easting"), y_first);
+  }
+  // Where neither fits, the file's order stays; a warning tells of the place.
+  const auto lost = read_text("lost.gml", town("EPSG:25832", 1, 2, false));
+  EXPECT_EQ(first_corner(lost), (Vec3{1, 2, 30}));
+}
+
 TEST(SceneCityGmlSrs, RoofsTellTheOrderOfAxesWhereBothFit) {
   // Soldner Berlin: eastings and northings are alike.
   for (const bool y_first : {false, true})
