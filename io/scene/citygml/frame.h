@@ -19,8 +19,9 @@ namespace sunload {
 /// Which axis comes first is told by the srsName where the CRS begins in the north (latitude,
 /// northing): first by the area of use that one order meets and the other misses; else by the side
 /// that roofs and bodies face, which the wrong order mirrors; else by the form of the name. What
-/// was taken is noted. One that begins in the east is read otherwise only where its area of use says so
-/// (files that put northings first whatever their srsName). Positions in degrees are put on the UTM zone (WGS84) of the place.
+/// was taken is noted. One that begins in the east is read otherwise only where its area of use
+/// says so (files that put northings first whatever their srsName). Positions in degrees are put on
+/// the UTM zone (WGS84) of the place.
 class CityFrame {
  public:
   CityFrame(const CityDocument& document, CityCoordinates& coordinates,
