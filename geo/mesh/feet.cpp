@@ -18,6 +18,7 @@ namespace {
 constexpr double steepest_edge = 1.7321;  // tan 60 degrees: steeper edges are corners of walls
 constexpr double inside_m = 0.05;         // behind a wall one asks what is below it
 constexpr double half = 0.5;
+constexpr double lowest_house_m = 2;  // of what nothing says is one
 
 /// CityJSON 2.0.1, section 2.2, and types of extensions, which begin with a plus.
 bool is_building(const std::string& kind) {
@@ -72,11 +73,13 @@ bool are_near(const Foot& one, const Foot& other, double distance) {
 class FootFinder {
  public:
   FootFinder(const Mesh& mesh, const Bodies& bodies, SceneKind kind)
-      : mesh_(mesh), bodies_(bodies), feet_(bodies.bodies.size()) {
+      : mesh_(mesh), bodies_(bodies), kind_(kind), feet_(bodies.bodies.size()) {
     has_feet_.resize(mesh.object_names.size());
     for (std::size_t o = 0; o < has_feet_.size(); ++o) {
       const std::string& of = mesh.object_kinds[o];
-      has_feet_[o] = kind == SceneKind::city ? is_building(of) : !is_plant(of) && !is_land(of);
+      const bool is_design = kind == SceneKind::city && of.empty();
+      has_feet_[o] =
+          is_design || (kind == SceneKind::city ? is_building(of) : !is_plant(of) && !is_land(of));
     }
   }
 
@@ -84,7 +87,8 @@ class FootFinder {
     measure_bodies();
     find_lower_edges();
     for (std::size_t b = 0; b < feet_.size(); ++b) take_foot(b);
-    std::erase_if(feet_, [](const Foot& foot) { return foot.edges.empty(); });
+    std::erase_if(
+        feet_, [&](const Foot& foot) { return foot.edges.empty() || is_low_without_type(foot); });
     find_stacked();
     find_hovering();
     return std::move(feet_);
@@ -92,6 +96,14 @@ class FootFinder {
 
  private:
   Vec3 at(std::int32_t v) const { return mesh_.vertices[static_cast<std::size_t>(v)]; }
+
+  /// In a city, what a plain file (OBJ) brings and is lower than a storey: a canopy, a panel, a
+  /// bench.
+  bool is_low_without_type(const Foot& foot) const {
+    if (kind_ == SceneKind::plain || !mesh_.object_kinds[foot.object.index()].empty()) return false;
+    const Box& box = bodies_.bodies[static_cast<std::size_t>(foot.body)].box;
+    return box.high.z - box.low.z < lowest_house_m;
+  }
 
   void measure_bodies() {
     std::vector<std::array<double, 2>> plan(feet_.size());
@@ -285,6 +297,7 @@ class FootFinder {
 
   const Mesh& mesh_;
   const Bodies& bodies_;
+  const SceneKind kind_;
   std::vector<std::uint8_t> has_feet_, has_roof_;  // per object, per body
   std::vector<double> low_of_object_;
   std::vector<std::vector<LowerEdge>> lower_;  // per body

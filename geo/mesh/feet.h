@@ -49,7 +49,8 @@ struct Foot {
   double plan_m2 = 0;                      ///< of what looks up or down, the larger
 };
 
-/// Feet of all bodies that have walls, but for plants and land; of a city, of its buildings alone.
+/// Feet of all bodies that have walls, but for plants and land; of a city, of its
+/// buildings, and of what has no type there (of plain files) and is as high as a storey.
 /// In the order of the bodies.
 ///
 /// A lower edge has an upright face above it, and below it a face that looks down or nothing. Of a

@@ -111,7 +111,7 @@ Placement place(const PolygonModel& model, const std::vector<std::uint8_t>& is_u
   const double extent_of_all = largest_component(all.high - all.low);
   if (farthest > near_origin_m || farthest > near_origin_extents * extent_of_all) {
     const double step = origin_step(extent);
-    const auto rounded = [&](double x) { return std::round(x / step) * step; };
+    const auto rounded = [&](double x) { return std::round(x / step) * step + 0.0; };  // no -0
     // Halves first: the sum of two finite numbers may not be finite.
     placement.origin = {rounded(box.low.x / 2 + box.high.x / 2),
                         rounded(box.low.y / 2 + box.high.y / 2), rounded(box.low.z)};

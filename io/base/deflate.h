@@ -12,7 +12,7 @@ namespace sunload {
 
 using Bytes = std::vector<unsigned char>;
 
-/// A zlib stream of any bytes, at libdeflate's level 1 … 12.
+/// A zlib stream of any bytes, at libdeflate's level 1 … 12; 0 stores them beside their checksum.
 Bytes zlib_deflated(std::span<const unsigned char> bytes, int level);
 
 /// CRC-32 (zlib's) of bytes, continuing `before`.

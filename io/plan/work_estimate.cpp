@@ -402,6 +402,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
                            (static_cast<double>(plan.intervals()) * s_per_value +
                             batches * batch_sums * s_per_byte_of_sums) +
                        n * s_per_patch;
+  const double rows = plan.steps.empty() ? lit : static_cast<double>(plan.steps.size());
+  const double further_series = bands * n * rows * std::max(0.0, series - 1) * s_per_further_value;
   work.is_of_this_machine = pace.is_measured;
   // The trial of a period of few solutions has no sky, and none has that of parts.
   const double untried =
@@ -409,8 +411,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       std::max(0.0, static_cast<double>(plan.light.lit_parts()) - lit) * s_per_sky_of_part;
   // Series are put together by one thread.
   work.seconds =
-      files + (s_to_start + untried + core.lines * pace.lines + core.direct * pace.direct +
-               core.mirror * pace.mirror + core.solve * pace.solve) /
+      files + (s_to_start + untried + further_series + core.lines * pace.lines +
+               core.direct * pace.direct + core.mirror * pace.mirror + core.solve * pace.solve) /
                   thread_count();
   return work;
 }

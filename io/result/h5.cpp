@@ -312,9 +312,9 @@ void Dataset::write_rows(std::size_t first, std::size_t count, const double* val
 
 void Dataset::write_chunk(const std::vector<std::size_t>& offset,
                           std::span<const unsigned char> bytes, ChunkCoding coding) {
-  constexpr std::uint32_t all_filters = 0, skip_shuffle_and_deflate = 0b11;
+  constexpr std::uint32_t all_filters = 0, skip_shuffle = 0b01;
   checked(H5Dwrite_chunk(id(), H5P_DEFAULT,
-                         coding == ChunkCoding::deflated ? all_filters : skip_shuffle_and_deflate,
+                         coding == ChunkCoding::deflated ? all_filters : skip_shuffle,
                          sizes(offset).data(), bytes.size(), bytes.data()),
           "writing");
 }

@@ -52,8 +52,9 @@ class Object {
   Handle handle_;
 };
 
-/// Whether a chunk comes shuffled and deflated or as the plain values.
-enum class ChunkCoding : std::uint8_t { deflated, plain };
+/// Whether a chunk comes shuffled and deflated, or its values deflated as they are (which may mean
+/// stored beside their checksum).
+enum class ChunkCoding : std::uint8_t { deflated, deflated_unshuffled };
 
 /// A dataset of an open file. What fails throws Error; reading converts to the type asked for.
 class Dataset : public Object {

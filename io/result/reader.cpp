@@ -3,9 +3,12 @@
 #include "io/result/reader.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -153,6 +156,8 @@ double one_number(const h5::Object& object, const std::string& attribute) {
 h5::File opened(const std::string& path, Opens opens) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError({path}, "there is no such file");
+  if (::access(path.c_str(), R_OK) != 0)
+    throw InputError({path}, "cannot be read", std::strerror(errno));
   const auto refuse_damage = [&](const std::string& problem) {
     if (!problem.empty())
       throw InputError({path}, "is damaged", problem, "run the study again with --overwrite");

@@ -65,7 +65,13 @@ void ResultWriter::File::write_chunk(const std::string& array, std::size_t first
   std::vector<std::size_t> offset{first};
   if (of.band) offset.push_back(*of.band);
   offset.push_back(chunk * shape.columns);
-  dataset.write_chunk(offset, bytes, is_plain ? h5::ChunkCoding::plain : h5::ChunkCoding::deflated);
+  if (is_plain) {  // what is stored as it is has a checksum all the same
+    constexpr int stored_level = 0;
+    dataset.write_chunk(offset, zlib_deflated(bytes, stored_level),
+                        h5::ChunkCoding::deflated_unshuffled);
+  } else {
+    dataset.write_chunk(offset, bytes, h5::ChunkCoding::deflated);
+  }
 }
 
 void ResultWriter::File::write_values(const std::string& array, std::size_t first,

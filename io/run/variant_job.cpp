@@ -88,7 +88,7 @@ void VariantJob::expect_may_run() const {
   // Of a shard's variants others may be finished by other shards before it comes.
   if (work_.options.existing == Existing::refuse && work_.options.shard.is_whole())
     throw InputError({folder_.result()}, "is there already, of this very study",
-                     "nothing is left to compute",
+                     "nothing of it is left to compute",
                      "use --resume to accept it, or --overwrite to compute it again");
 }
 

@@ -113,6 +113,22 @@ TEST(Ground, GoesThroughFeetOfAllHeights) {
   }
 }
 
+// A design in a plain file stands in a city as its buildings do.
+TEST(Ground, GoesThroughFeetOfObjectsWithoutATypeInACity) {
+  auto builder = ModelBuilder().city();
+  for (int i = 0; i < 4; ++i)
+    builder.object("house_" + std::to_string(i), "Building")
+        .box({30.0 * i, 0, 10}, {30.0 * i + 10, 10, 18});
+  builder.object("design").box({60, 30, 16}, {70, 40, 24});
+  builder.object("canopy").box({0, -20, 14}, {5, -15, 14.2});
+  builder.object("tree", "SolitaryVegetationObject").box({90, 30, 12}, {92, 32, 20});
+  const auto p = builder.prepared(on_feet());
+  EXPECT_EQ(p.report.ground->standing, 5u);
+  EXPECT_NEAR(p.report.ground->gap_m.front(), 0, ground_rounding);
+  EXPECT_NEAR(p.report.ground->gap_m.back(), 0, ground_rounding);
+  EXPECT_NEAR(plan_area(p.mesh, true), 500, 1e-6);
+}
+
 TEST(Ground, IsLevelBeyondTheOutermostFeet) {
   auto builder = ModelBuilder().object("low").box({0, 0, 0}, {10, 10, 5});
   builder.object("high").box({40, 0, 3}, {50, 10, 9});

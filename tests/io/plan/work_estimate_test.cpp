@@ -59,6 +59,7 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
                     micro_s(s_per_guided_patch)),
         fmt::format("| samples | {} |", micro_s(s_per_sample)),
         fmt::format("| patches · intervals | {} |", micro_s(s_per_value)),
+        fmt::format("| patches · intervals with light | {} |", micro_s(s_per_further_value)),
         fmt::format("bytes of sums in batches, as below | {} |", nano_s(s_per_byte_of_sums)),
         fmt::format("({} of the lines meet something", share_that_meets),
         fmt::format("lines cost {} times as", 1 + rays_by_guide)})

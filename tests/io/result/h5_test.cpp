@@ -55,11 +55,20 @@ TEST(H5, ChunksOfBothCodingsAreReadBack) {
     h5::Dataset data = file.create_dataset("data", {h5::Type::float32, {8, 1000}, {4, 1000}, 4});
     data.write_chunk({0, 0}, encoded_chunks(values.data(), 4, 1000, shape, 4)[0],
                      h5::ChunkCoding::deflated);
-    data.write_chunk({4, 0}, encoded_chunks(values.data(), 4, 1000, shape, 0)[0],
-                     h5::ChunkCoding::plain);
+    data.write_chunk({4, 0},
+                     zlib_deflated(encoded_chunks(values.data(), 4, 1000, shape, 0)[0], 0),
+                     h5::ChunkCoding::deflated_unshuffled);
     file.close();
   }
   EXPECT_EQ(h5::File::open(path).dataset("data").doubles(), std::vector<double>(8000, 2.5));
+  // A flipped bit among the stored values is seen.
+  std::string bytes = folder.read("a.h5");
+  const float value = 2.5F;
+  const auto at = bytes.rfind(std::string(reinterpret_cast<const char*>(&value), sizeof(value)));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 2] = static_cast<char>(bytes[at + 2] ^ 1);
+  folder.write("a.h5", bytes);
+  EXPECT_THROW(h5::File::open(path).dataset("data").doubles(), h5::Error);
 }
 
 TEST(H5, ErrorsCarryTheReasonAndNothingIsPrinted) {
