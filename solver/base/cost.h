@@ -68,8 +68,8 @@ inline constexpr double s_per_patch_batch_realization = 2e-7;
 inline constexpr double s_per_sun = 4.2e-4;  ///< in a scene of any size: its sky, cell by cell
 /// The sky of each interval but one of those that are solved together.
 inline constexpr double s_per_sky_of_part = 1.7e-4;
-inline constexpr double s_per_sample = 6e-7;        ///< shot, with its deposit
-inline constexpr double s_per_value = 1.2e-8;       ///< one patch of one interval, stored
+inline constexpr double s_per_sample = 6e-7;   ///< shot, with its deposit
+inline constexpr double s_per_value = 1.2e-8;  ///< one patch of one interval, stored
 /// The same of each series beyond the first, of intervals that are computed (Rotterdam, six weeks).
 inline constexpr double s_per_further_value = 6e-8;
 inline constexpr double s_per_byte_of_sums = 3e-9;  ///< in batches: written, read, added up

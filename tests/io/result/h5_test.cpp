@@ -55,8 +55,7 @@ TEST(H5, ChunksOfBothCodingsAreReadBack) {
     h5::Dataset data = file.create_dataset("data", {h5::Type::float32, {8, 1000}, {4, 1000}, 4});
     data.write_chunk({0, 0}, encoded_chunks(values.data(), 4, 1000, shape, 4)[0],
                      h5::ChunkCoding::deflated);
-    data.write_chunk({4, 0},
-                     zlib_deflated(encoded_chunks(values.data(), 4, 1000, shape, 0)[0], 0),
+    data.write_chunk({4, 0}, zlib_deflated(encoded_chunks(values.data(), 4, 1000, shape, 0)[0], 0),
                      h5::ChunkCoding::deflated_unshuffled);
     file.close();
   }
