@@ -3,6 +3,7 @@
 /// Pairs of points on surfaces: which of them see each other, 16 at a time.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -32,7 +33,8 @@ class PointPairs {
   std::optional<Facing> take(std::size_t l, const SurfacePoint& x, const SurfacePoint& y) {
     const Vec3 way = y.position - x.position;
     const double cos_x = dot(x.normal, way), cos_y = -dot(y.normal, way);
-    const double distance_2 = dot(way, way), offset = caster_.offset_m();
+    const double distance_2 = dot(way, way);
+    const double offset = std::max(caster_.offset_m(), ray_offset_m(x.position));
     if (!(cos_x > 0 && cos_y > 0 && distance_2 > offset * offset)) return {};
     put(origins_, l, x.position);
     put(ways_, l, way + y.normal * offset);

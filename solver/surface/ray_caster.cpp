@@ -63,16 +63,20 @@ void throw_kept(const DeviceError& error) {
   throw std::logic_error("ray caster: " + error.text);
 }
 
+double largest_coordinate(Vec3 p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
 double largest_coordinate(const Mesh& mesh) {
   double largest = 0;
-  for (const auto& p : mesh.vertices)
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  for (const auto& p : mesh.vertices) largest = std::max(largest, largest_coordinate(p));
   return largest;
 }
 
 }  // namespace
 
 double ray_offset_m(const Mesh& mesh) { return offset_ulps * float_ulp * largest_coordinate(mesh); }
+double ray_offset_m(Vec3 from) { return offset_ulps * float_ulp * largest_coordinate(from); }
 
 std::string usable_isa(const std::string& wanted) {
   if (wanted != "auto") {

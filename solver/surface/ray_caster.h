@@ -89,6 +89,9 @@ std::string usable_isa(const std::string& wanted);
 /// rounding to single precision of its largest coordinate. What is closer to a surface than that,
 /// or to the foot of a wall, is not seen right.
 double ray_offset_m(const Mesh& mesh);
+/// The same where a ray ends that comes from a point, which may lie far beyond the scene (a sensor)
+/// and is rounded as well.
+double ray_offset_m(Vec3 from);
 
 /// The triangles of one mesh in a tree of boxes. May be asked from any thread.
 class RayCaster {

@@ -161,6 +161,22 @@ TEST(SensorLamps, SquareEmitters) {
     }
 }
 
+// Far beyond the scene: points are rounded to float there more coarsely than the lamp is.
+TEST(SensorLamps, FarAwayByTheInverseSquare) {
+  constexpr double side = 0.6;
+  for (const double d : {10.0, 40.0, 100.0, 1000.0}) {
+    SensorStage stage;
+    add_square(stage, side, 0, stage.lamp);
+    stage.at({0, 0, -d}, {0, 0, 1});
+    // On the axis: the integral of cos^2 / (pi r^2) to second order in side / d. Lines, which
+    // hardly ever meet so small a lamp, carry some 1e-5 of it.
+    constexpr double by_lines = 1e-4;
+    const double share = side / d, truth = share * share / pi * (1 - share * share / 3);
+    check("at " + std::to_string(d) + " m", of_sensor(stage.light(night, sensor_rules(256)), 0),
+          truth, truth * by_lines);
+  }
+}
+
 TEST(SensorLamps, TilingMakesNoDifference) {
   for (const auto& c : reference_cases("08_smits_jensen_style/cases.json", "emission_tiling")) {
     SensorStage stage;
