@@ -77,9 +77,8 @@ class FootFinder {
     has_feet_.resize(mesh.object_names.size());
     for (std::size_t o = 0; o < has_feet_.size(); ++o) {
       const std::string& of = mesh.object_kinds[o];
-      const bool is_design = kind == SceneKind::city && of.empty();
       has_feet_[o] =
-          is_design || (kind == SceneKind::city ? is_building(of) : !is_plant(of) && !is_land(of));
+          kind == SceneKind::city ? is_building(of) || of.empty() : !is_plant(of) && !is_land(of);
     }
   }
 

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import os
 import warnings
@@ -15,6 +14,7 @@ import pandas
 import xarray
 
 from . import program
+from .checks import nearest
 
 ROWS_AT_ONCE = 256  # as many as a chunk of a series has
 
@@ -112,8 +112,9 @@ class Accessor:
 
     def mean(self, quantity: str = "light_load", **by: Union[str, Sequence[str]]) -> xarray.DataArray:
         """Area-weighted mean over patches, for instance mean("irradiance", surface_of="wall"), or of several kinds:
-        surface_of=["wall", "roof"]. Patches that light cannot reach (patch_covered) do not count. Raises ValueError where no patch is left, and for what the result does not have
-        of its patches: those of `sunload.solve` have no objects, facades and kinds of surface, but `material_of`."""
+        surface_of=["wall", "roof"]. Patches that light cannot reach (patch_covered) do not count. Raises ValueError where
+        no patch is left, for a value that no patch has, and for what the result does not have of its patches: those of
+        `sunload.solve` have no objects, facades and kinds of surface, but `material_of`."""
         result = self._result
         chosen = np.ones(result.sizes["patch"], dtype=bool)
         if "patch_covered" in result:
@@ -143,10 +144,8 @@ class Accessor:
             has = values == one
             if not has.any():
                 known = sorted({str(word) for word in values if str(word)})
-                near = difflib.get_close_matches(str(one), known, 1)
                 few = ", ".join(known[:8]) + (", …" if len(known) > 8 else "")
-                raise ValueError(f"no patch with {name} {one!r}; " +
-                                 (f"did you mean {near[0]!r}?" if near else f"there are {few}"))
+                raise ValueError(f"no patch with {name} {one!r}; {nearest(str(one), known) or 'there are ' + few}")
             chosen |= has
         return chosen
 
@@ -155,8 +154,7 @@ class Accessor:
         if name in result and "patch" in result[name].dims:
             return result[name]
         known = sorted(str(key) for key in result.variables if "patch" in result[key].dims)
-        near = difflib.get_close_matches(name, known, 1)
-        hint = f"did you mean {near[0]!r}?" if near else "there are " + ", ".join(known)
+        hint = nearest(name, known) or "there are " + ", ".join(known)
         if name in ("object_of", "facade_of", "surface_of"):
             hint = "a mesh given to sunload.solve has materials alone: name them, and choose by material_of"
         raise ValueError(f"{name}: the result has no such values of its patches; {hint}")
