@@ -1,12 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cpl_conv.h>
-#include <cpl_error.h>
-#include <cpl_vsi.h>
 #include <fmt/format.h>
-#include <gdal.h>
-#include <ogr_api.h>
-#include <ogr_srs_api.h>
 
 #include <array>
 #include <cmath>
@@ -15,6 +9,7 @@
 
 #include "geo/base/check.h"
 #include "geo/mesh/mesh.h"
+#include "io/base/gdal.h"
 #include "io/export/format.h"
 #include "io/export/qgis_style.h"
 #include "io/export/surface_values.h"
@@ -26,30 +21,32 @@ namespace {
 
 /// Objects of GDAL are pointers to nothing that could be seen.
 template <class Destroy>
-auto owned(void* object, Destroy destroy) {
-  return std::unique_ptr<void, Destroy>(object, destroy);
+auto owned(void* object, Destroy& destroy) {
+  return std::unique_ptr<void, Destroy&>(object, destroy);
 }
 
 struct QuietErrors {
-  QuietErrors() { CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~QuietErrors() { CPLPopErrorHandler(); }
+  QuietErrors() {
+    gdal::CPLPushErrorHandler([](CPLErr, CPLErrorNum, const char*) {});
+  }
+  ~QuietErrors() { gdal::CPLPopErrorHandler(); }
 };
 
 [[noreturn]] void fail(const std::string& path) {
-  throw MachineError("cannot write " + path + ": " + CPLGetLastErrorMsg());
+  throw MachineError("cannot write " + path + ": " + gdal::CPLGetLastErrorMsg());
 }
 
 /// The file while it is in memory; its name is that of this process alone.
 class MemoryFile {
  public:
   MemoryFile() : path_(fmt::format("/vsimem/{}.gpkg", static_cast<const void*>(this))) {}
-  ~MemoryFile() { VSIUnlink(path_.c_str()); }
+  ~MemoryFile() { gdal::VSIUnlink(path_.c_str()); }
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
   const char* path() const { return path_.c_str(); }
   std::string_view bytes() const {
     vsi_l_offset count = 0;
-    const auto* data = VSIGetMemFileBuffer(path_.c_str(), &count, FALSE);
+    const auto* data = gdal::VSIGetMemFileBuffer(path_.c_str(), &count, FALSE);
     return {reinterpret_cast<const char*>(data),
             data == nullptr ? 0 : static_cast<std::size_t>(count)};
   }
@@ -64,25 +61,25 @@ class Shapes {
   Shapes(const ResultPatches& patches, double unit_m) : patches_(patches), unit_m_(unit_m) {}
 
   OGRGeometryH triangle(std::size_t patch) const {
-    OGRGeometryH ring = OGR_G_CreateGeometry(wkbLinearRing);
+    OGRGeometryH ring = gdal::OGR_G_CreateGeometry(wkbLinearRing);
     for (const std::size_t k : {0U, 1U, 2U, 0U}) {
       const Vec3 at =
           on_map(patches_.vertices[static_cast<std::size_t>(patches_.corners[patch][k])]);
-      OGR_G_AddPoint(ring, at.x, at.y, at.z);
+      gdal::OGR_G_AddPoint(ring, at.x, at.y, at.z);
     }
-    OGRGeometryH polygon = OGR_G_CreateGeometry(wkbPolygon25D);
-    OGR_G_AddGeometryDirectly(polygon, ring);
+    OGRGeometryH polygon = gdal::OGR_G_CreateGeometry(wkbPolygon25D);
+    gdal::OGR_G_AddGeometryDirectly(polygon, ring);
     return polygon;
   }
   OGRGeometryH point(Vec3 in_scene) const {
     const Vec3 at = on_map(in_scene);
-    OGRGeometryH shape = OGR_G_CreateGeometry(wkbPoint25D);
-    OGR_G_SetPoint(shape, 0, at.x, at.y, at.z);
+    OGRGeometryH shape = gdal::OGR_G_CreateGeometry(wkbPoint25D);
+    gdal::OGR_G_SetPoint(shape, 0, at.x, at.y, at.z);
     return shape;
   }
   OGRGeometryH all(const std::vector<std::size_t>& patches) const {
-    OGRGeometryH shape = OGR_G_CreateGeometry(wkbMultiPolygon25D);
-    for (const auto p : patches) OGR_G_AddGeometryDirectly(shape, triangle(p));
+    OGRGeometryH shape = gdal::OGR_G_CreateGeometry(wkbMultiPolygon25D);
+    for (const auto p : patches) gdal::OGR_G_AddGeometryDirectly(shape, triangle(p));
     return shape;
   }
 
@@ -100,31 +97,33 @@ class Layer {
  public:
   Layer(GDALDatasetH file, const char* name, OGRSpatialReferenceH crs, OGRwkbGeometryType type,
         std::vector<std::string> numbers)
-      : layer_(GDALDatasetCreateLayer(file, name, crs, type, nullptr)),
+      : layer_(gdal::GDALDatasetCreateLayer(file, name, crs, type, nullptr)),
         numbers_(std::move(numbers)) {
     if (layer_ == nullptr) fail(name);
   }
   void add(const Words& words, const SurfaceValues::Named& values, OGRGeometryH shape) {
-    if (OGR_FD_GetFieldCount(OGR_L_GetLayerDefn(layer_)) == 0) make_columns(words);
-    const auto feature = owned(OGR_F_Create(OGR_L_GetLayerDefn(layer_)), &OGR_F_Destroy);
+    if (gdal::OGR_FD_GetFieldCount(gdal::OGR_L_GetLayerDefn(layer_)) == 0) make_columns(words);
+    const auto feature =
+        owned(gdal::OGR_F_Create(gdal::OGR_L_GetLayerDefn(layer_)), gdal::OGR_F_Destroy);
     const auto column = [&](const std::string& name) {
-      return OGR_F_GetFieldIndex(feature.get(), name.c_str());
+      return gdal::OGR_F_GetFieldIndex(feature.get(), name.c_str());
     };
     for (const auto& [name, word] : words)
-      OGR_F_SetFieldString(feature.get(), column(name), word.c_str());
+      gdal::OGR_F_SetFieldString(feature.get(), column(name), word.c_str());
     for (const auto& [name, value] : values)
       if (const int place = column(name); place >= 0 && std::isfinite(value))
-        OGR_F_SetFieldDouble(feature.get(), place, value);
-    if ((shape != nullptr && OGR_F_SetGeometryDirectly(feature.get(), shape) != OGRERR_NONE) ||
-        OGR_L_CreateFeature(layer_, feature.get()) != OGRERR_NONE)
+        gdal::OGR_F_SetFieldDouble(feature.get(), place, value);
+    if ((shape != nullptr &&
+         gdal::OGR_F_SetGeometryDirectly(feature.get(), shape) != OGRERR_NONE) ||
+        gdal::OGR_L_CreateFeature(layer_, feature.get()) != OGRERR_NONE)
       fail("a row");
   }
 
  private:
   void make_columns(const Words& words) {
     const auto make = [&](const std::string& name, OGRFieldType type) {
-      const auto column = owned(OGR_Fld_Create(name.c_str(), type), &OGR_Fld_Destroy);
-      if (OGR_L_CreateField(layer_, column.get(), TRUE) != OGRERR_NONE) fail(name);
+      const auto column = owned(gdal::OGR_Fld_Create(name.c_str(), type), gdal::OGR_Fld_Destroy);
+      if (gdal::OGR_L_CreateField(layer_, column.get(), TRUE) != OGRERR_NONE) fail(name);
     };
     for (const auto& [name, word] : words) make(name, OFTString);
     for (const auto& name : numbers_) make(name, OFTReal);
@@ -332,24 +331,24 @@ class ResultLayers {
 
 void export_geopackage(const ResultReader& result, const ExportRules& rules,
                        const ExportTarget& target) {
-  GDALAllRegister();
+  gdal::GDALAllRegister();
   const QuietErrors quiet;
-  const auto driver = GDALGetDriverByName("GPKG");
+  const auto driver = gdal::GDALGetDriverByName("GPKG");
   if (driver == nullptr) throw MachineError("GDAL has no driver GPKG here");
   const MemoryFile memory;
   {
-    const auto file =
-        owned(GDALCreate(driver, memory.path(), 0, 0, 0, GDT_Unknown, nullptr), &GDALClose);
+    const auto file = owned(gdal::GDALCreate(driver, memory.path(), 0, 0, 0, GDT_Unknown, nullptr),
+                            gdal::GDALClose);
     if (!file) fail(target.path);
-    const auto crs = owned(OSRNewSpatialReference(nullptr), &OSRDestroySpatialReference);
+    const auto crs = owned(gdal::OSRNewSpatialReference(nullptr), gdal::OSRDestroySpatialReference);
     const auto name = result.text_attribute("crs");
     const bool has_crs =
-        !name.empty() && OSRSetFromUserInput(crs.get(), name.c_str()) == OGRERR_NONE;
-    OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
+        !name.empty() && gdal::OSRSetFromUserInput(crs.get(), name.c_str()) == OGRERR_NONE;
+    gdal::OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
     // One transaction: a row for itself would be flushed for itself.
-    GDALDatasetStartTransaction(file.get(), FALSE);
+    gdal::GDALDatasetStartTransaction(file.get(), FALSE);
     ResultLayers(result, rules, file.get(), has_crs ? crs.get() : nullptr).write();
-    if (GDALDatasetCommitTransaction(file.get()) != OGRERR_NONE) fail(target.path);
+    if (gdal::GDALDatasetCommitTransaction(file.get()) != OGRERR_NONE) fail(target.path);
   }
   target.stream << memory.bytes();
 }

@@ -69,9 +69,9 @@ std::vector<AbsentPlace> still_absent(std::vector<AbsentPlace> absent, const Stu
   return absent;
 }
 
-MeasuredInterval measured(const LitInterval& lit) {
-  const double lm_per_w = lit.lm_per_w ? lit.lm_per_w->diffuse : 1;
-  MeasuredInterval interval{lit.when.begin, lit.when.end, 0, lit.mean.dhi * lm_per_w, {}};
+/// `quantity`: of the series.
+MeasuredInterval measured(const LitInterval& lit, Quantity quantity) {
+  MeasuredInterval interval{lit.when.begin, lit.when.end, 0, source_means(lit, quantity).dhi, {}};
   if (lit.when.sunlit_s <= 0) return interval;
   // Means are over the whole interval.
   interval.dni = lit.mean.dni * lit.when.length_s() / lit.when.sunlit_s;
@@ -226,7 +226,9 @@ void expect_measurable(const Study& study, const LightSeries& light) {
 
 void warn_of_no_values(const Study& study, const LightSeries& light,
                        std::vector<std::string>& warnings) {
-  const auto counts = [](const LitInterval& lit) { return is_without_sun(measured(lit)); };
+  const auto counts = [&](const LitInterval& lit) {
+    return is_without_sun(measured(lit, study.light.quantity));
+  };
   for (const MeasureParameters& of : study.measures)
     if (find_measure_rule(of.rule)->counts == MeasureRule::Counts::without_sun &&
         std::none_of(light.intervals.begin(), light.intervals.end(), counts))
@@ -237,14 +239,28 @@ void warn_of_no_values(const Study& study, const LightSeries& light,
                   "cie_overcast}, or weather with cloudy hours"));
 }
 
+void warn_of_lamps(const Study& study, const Scene& scene, std::vector<std::string>& warnings) {
+  const auto shines = [&](MaterialId id) { return scene.materials[id.index()].emission_w_m2 > 0; };
+  if (scene.luminaires.all.empty() &&
+      std::none_of(scene.material.begin(), scene.material.end(), shines))
+    return;
+  for (const MeasureParameters& of : study.measures)
+    if (find_measure_rule(of.rule)->counts == MeasureRule::Counts::without_sun &&
+        of.words.at("light") != "sky")
+      warnings.push_back(message(of.where, "measure " + of.name + " counts the light of lamps",
+                                 "they are in the scene, and daylight is of the sky alone",
+                                 "leave them away in a variant, or write light: sky"));
+}
+
 StudyMeasures::StudyMeasures(const VariantPlan& plan, const Hierarchy& hierarchy) {
   if (plan.study.measures.empty()) return;
   const Scene& scene = plan.built.scene;
   caster_ = std::make_unique<RayCaster>(scene.mesh, plan.isa);
   // Rules look at light of intervals as they are, also where these are solved together.
   for (const LitInterval& lit : plan.light.intervals) {
-    if (!lit.joined) intervals_.push_back(measured(lit));
-    for (const LitInterval& part : lit.parts()) intervals_.push_back(measured(part));
+    if (!lit.joined) intervals_.push_back(measured(lit, plan.study.light.quantity));
+    for (const LitInterval& part : lit.parts())
+      intervals_.push_back(measured(part, plan.study.light.quantity));
   }
   for (const MeasureParameters& of : plan.study.measures) {
     StudyMeasure& m = all_.emplace_back(StudyMeasure{of, find_measure_rule(of.rule), {}, {}, {}});

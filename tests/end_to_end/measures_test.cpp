@@ -201,6 +201,52 @@ TEST(Measures, SayWhereTheyHaveNoValue) {
   EXPECT_EQ(overcast.out.find("has no value"), std::string::npos) << overcast.out;
 }
 
+/// In the open it is 100 % by its definition, in whatever unit light is told and its strength
+/// given.
+TEST(Measures, DaylightFactorIsWholeInTheOpen) {
+  const WorkFolder folder;
+  for (const char* quantity : {"irradiance", "illuminance"})
+    for (const char* strength :
+         {"dhi_w_m2: 200", "sky_scale: absolute, zenith_luminance_cd_m2: 9000"}) {
+      folder.write(
+          "open.yaml",
+          box_study("open") +
+              "sensors: {points: [{position_m: [0, 0, 500], normal: [0, 0, 1]}]}\n"
+              "measures: {df: {rule: daylight_factor}, of_sky: {rule: daylight_factor, light: "
+              "sky}}\n" +
+              fmt::format(
+                  "light: {{source: fixed, dni_w_m2: 0, {}, sky: cie_overcast, quantity: {}}}\n",
+                  strength, quantity));
+      const Ran ran = program(folder, {"run", "open.yaml", "--overwrite"});
+      ASSERT_EQ(ran.code, 0) << ran.err;
+      const ResultReader result(folder / "results/open/baseline.h5");
+      // Single precision, and what lines of the horizon see of the ground.
+      EXPECT_NEAR(result.doubles("sensor_measure_df").at(0), 100, 1)
+          << quantity << ", " << strength;
+      EXPECT_NEAR(result.doubles("sensor_measure_of_sky").at(0), 100, 1)
+          << quantity << ", " << strength;
+      EXPECT_EQ(ran.err.find("counts the light of lamps"), std::string::npos) << ran.err;
+    }
+}
+
+TEST(Measures, OfDaylightWarnOfLamps) {
+  const WorkFolder folder;
+  const std::string overcast =
+      "light: {source: fixed, dni_w_m2: 0, dhi_w_m2: 200, sky: cie_overcast}\n";
+  std::string study = box_study("lit");
+  const std::string scene = "scene: {builtin: {name: box_on_plane}";
+  study.insert(study.find(scene) + scene.size(),
+               ", materials: {glowing: {diffuse: 0.5, emission_w_m2: 50}}, assign: [{object: box, "
+               "material: glowing}]");
+  folder.write("lit.yaml", study + overcast +
+                               "measures: {all: {rule: daylight_factor}, of_sky: {rule: "
+                               "daylight_factor, light: sky}}\n");
+  const Ran ran = program(folder, {"check", "lit.yaml"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_NE(ran.out.find("measure all counts the light of lamps"), std::string::npos) << ran.out;
+  EXPECT_EQ(ran.out.find("measure of_sky counts"), std::string::npos) << ran.out;
+}
+
 TEST(Measures, OfAYearNeedOne) {
   const WorkFolder folder;
   write(folder, "measures: {a: {rule: roof_potential, of: {surface: roof}}}\n");

@@ -22,7 +22,7 @@ site: {latitude_deg: 49.7475, longitude_deg: 13.3776, timezone: Europe/Prague}
 period: {days: [2026-03-21, 2026-06-21], from: "06:00", to: "18:00", step_min: 15}
 light: {source: clear_sky}
 scene: {builtin: {name: street, house_3: brick}}
-mesh: {max_edge_m: 3}
+mesh: {max_edge_m: 2, oracle: none}
 solver: {batch_suns: 4, lines_per_patch: 64}
 variants:
   - {name: baseline}

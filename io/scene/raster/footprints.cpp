@@ -3,8 +3,6 @@
 #include "io/scene/raster/footprints.h"
 
 #include <fmt/format.h>
-#include <ogr_api.h>
-#include <ogr_srs_api.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,13 +35,13 @@ const Names bases{"base_height", "base_m", "ground_height", "ground_elevation"};
 const Names names{"id", "gml_id", "osm_id", "fid", "egid", "ref", "name"};
 
 struct DestroyFeature {
-  void operator()(void* feature) const { OGR_F_Destroy(feature); }
+  void operator()(void* feature) const { gdal::OGR_F_Destroy(feature); }
 };
 struct DestroyTransform {
-  void operator()(void* transform) const { OCTDestroyCoordinateTransformation(transform); }
+  void operator()(void* transform) const { gdal::OCTDestroyCoordinateTransformation(transform); }
 };
 struct ReleaseCrs {
-  void operator()(void* crs) const { OSRRelease(crs); }
+  void operator()(void* crs) const { gdal::OSRRelease(crs); }
 };
 using Crs = std::unique_ptr<void, ReleaseCrs>;
 
@@ -62,8 +60,8 @@ class FootprintReader {
     read_terrain();
     model_.source = path_;
     model_.is_city_format = true;
-    OGR_L_ResetReading(layer_);
-    while (const Feature feature{OGR_L_GetNextFeature(layer_)}) add(feature.get());
+    gdal::OGR_L_ResetReading(layer_);
+    while (const Feature feature{gdal::OGR_L_GetNextFeature(layer_)}) add(feature.get());
     refuse_without_height();
     if (model_.object_names.empty()) fail_without_polygons();
     tell();
@@ -87,15 +85,15 @@ class FootprintReader {
     std::string known;
     OGRLayerH found = nullptr;
     int polygons = 0;
-    for (int k = 0; k < GDALDatasetGetLayerCount(dataset_.get()); ++k) {
-      OGRLayerH layer = GDALDatasetGetLayer(dataset_.get(), k);
-      const std::string name = OGR_L_GetName(layer);
+    for (int k = 0; k < gdal::GDALDatasetGetLayerCount(dataset_.get()); ++k) {
+      OGRLayerH layer = gdal::GDALDatasetGetLayer(dataset_.get(), k);
+      const std::string name = gdal::OGR_L_GetName(layer);
       known += (known.empty() ? "" : ", ") + name;
       if (!rules_.layer.empty()) {
         if (name == rules_.layer) found = layer;
         continue;
       }
-      const auto type = wkbFlatten(OGR_L_GetGeomType(layer));
+      const auto type = gdal::OGR_GT_Flatten(gdal::OGR_L_GetGeomType(layer));
       const bool may_be = type == wkbPolygon || type == wkbMultiPolygon || type == wkbUnknown ||
                           type == wkbCurvePolygon || type == wkbMultiSurface;
       if (!may_be) continue;
@@ -114,11 +112,11 @@ class FootprintReader {
 
   std::vector<std::string> columns() const {
     std::vector<std::string> all;
-    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer_);
-    const int count = OGR_FD_GetFieldCount(definition);
+    OGRFeatureDefnH definition = gdal::OGR_L_GetLayerDefn(layer_);
+    const int count = gdal::OGR_FD_GetFieldCount(definition);
     all.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k)
-      all.emplace_back(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, k)));
+      all.emplace_back(gdal::OGR_Fld_GetNameRef(gdal::OGR_FD_GetFieldDefn(definition, k)));
     return all;
   }
 
@@ -160,13 +158,14 @@ class FootprintReader {
   /// The extent that a GeoPackage stores is for information, and often that of a whole country.
   OGREnvelope extent_of_polygons() const {
     OGREnvelope all;
-    OGR_L_ResetReading(layer_);
-    while (const Feature feature{OGR_L_GetNextFeature(layer_)}) {
-      const OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get());
-      if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0 || OGR_G_GetDimension(geometry) < 2)
+    gdal::OGR_L_ResetReading(layer_);
+    while (const Feature feature{gdal::OGR_L_GetNextFeature(layer_)}) {
+      const OGRGeometryH geometry = gdal::OGR_F_GetGeometryRef(feature.get());
+      if (geometry == nullptr || gdal::OGR_G_IsEmpty(geometry) != 0 ||
+          gdal::OGR_G_GetDimension(geometry) < 2)
         continue;
       OGREnvelope one;
-      OGR_G_GetEnvelope(geometry, &one);
+      gdal::OGR_G_GetEnvelope(geometry, &one);
       all.Merge(one);
     }
     if (all.IsInit() == 0) fail_without_polygons();
@@ -174,9 +173,9 @@ class FootprintReader {
   }
 
   void read_crs() {
-    OGRSpatialReferenceH crs = OGR_L_GetSpatialRef(layer_);
+    OGRSpatialReferenceH crs = gdal::OGR_L_GetSpatialRef(layer_);
     if (crs == nullptr) return notes_.say("the footprints name no CRS: site.crs may");
-    if (OSRIsGeographic(crs) == 0) {
+    if (gdal::OSRIsGeographic(crs) == 0) {
       model_.crs = crs_name(crs);
       return;
     }
@@ -198,11 +197,11 @@ class FootprintReader {
            "that is no town", "are longitude and latitude exchanged?");
     const int zone =
         std::clamp(static_cast<int>((longitude + half_turn) / zone_width) + 1, 1, zones);
-    const Crs utm(OSRNewSpatialReference(nullptr)), degrees(OSRClone(crs));
-    OSRImportFromEPSG(utm.get(), (latitude < 0 ? south_code : north_code) + zone);
+    const Crs utm(gdal::OSRNewSpatialReference(nullptr)), degrees(gdal::OSRClone(crs));
+    gdal::OSRImportFromEPSG(utm.get(), (latitude < 0 ? south_code : north_code) + zone);
     for (const auto* each : {&utm, &degrees})
-      OSRSetAxisMappingStrategy(each->get(), OAMS_TRADITIONAL_GIS_ORDER);
-    to_map_.reset(OCTNewCoordinateTransformation(degrees.get(), utm.get()));
+      gdal::OSRSetAxisMappingStrategy(each->get(), OAMS_TRADITIONAL_GIS_ORDER);
+    to_map_.reset(gdal::OCTNewCoordinateTransformation(degrees.get(), utm.get()));
     if (!to_map_) fail("cannot be projected");
     model_.crs = crs_name(utm.get());
     notes_.say("degrees of the footprints are projected to " + model_.crs);
@@ -225,8 +224,8 @@ class FootprintReader {
     std::string unit;
   };
   std::optional<Written> written(OGRFeatureH feature, int column) {
-    if (column < 0 || OGR_F_IsFieldSetAndNotNull(feature, column) == 0) return {};
-    const std::string text(trimmed(OGR_F_GetFieldAsString(feature, column)));
+    if (column < 0 || gdal::OGR_F_IsFieldSetAndNotNull(feature, column) == 0) return {};
+    const std::string text(trimmed(gdal::OGR_F_GetFieldAsString(feature, column)));
     if (text.empty()) return {};
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
@@ -260,9 +259,10 @@ class FootprintReader {
   }
 
   std::string title(OGRFeatureH feature) const {
-    if (name_ >= 0 && OGR_F_IsFieldSetAndNotNull(feature, name_) != 0)
-      if (std::string name = OGR_F_GetFieldAsString(feature, name_); !name.empty()) return name;
-    return fmt::format("building_{}", OGR_F_GetFID(feature) + 1);
+    if (name_ >= 0 && gdal::OGR_F_IsFieldSetAndNotNull(feature, name_) != 0)
+      if (std::string name = gdal::OGR_F_GetFieldAsString(feature, name_); !name.empty())
+        return name;
+    return fmt::format("building_{}", gdal::OGR_F_GetFID(feature) + 1);
   }
 
   std::optional<double> height_m(OGRFeatureH feature) {
@@ -274,20 +274,20 @@ class FootprintReader {
   }
 
   void add(OGRFeatureH feature) {
-    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    OGRGeometryH geometry = gdal::OGR_F_GetGeometryRef(feature);
     if (geometry == nullptr) return notes_.count("features without a footprint are left out");
-    const auto type = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    const auto type = gdal::OGR_GT_Flatten(gdal::OGR_G_GetGeometryType(geometry));
     if (type == wkbCurvePolygon || type == wkbMultiSurface) {
-      OGR_F_SetGeometryDirectly(feature, OGR_G_GetLinearGeometry(geometry, 0, nullptr));
-      geometry = OGR_F_GetGeometryRef(feature);
+      gdal::OGR_F_SetGeometryDirectly(feature, gdal::OGR_G_GetLinearGeometry(geometry, 0, nullptr));
+      geometry = gdal::OGR_F_GetGeometryRef(feature);
     }
     std::vector<PlanArea> areas;
     double lowest_z = std::numeric_limits<double>::infinity();
-    if (wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbPolygon)
+    if (gdal::OGR_GT_Flatten(gdal::OGR_G_GetGeometryType(geometry)) == wkbPolygon)
       add_area(geometry, areas, lowest_z);
-    else if (wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbMultiPolygon)
-      for (int k = 0; k < OGR_G_GetGeometryCount(geometry); ++k)
-        add_area(OGR_G_GetGeometryRef(geometry, k), areas, lowest_z);
+    else if (gdal::OGR_GT_Flatten(gdal::OGR_G_GetGeometryType(geometry)) == wkbMultiPolygon)
+      for (int k = 0; k < gdal::OGR_G_GetGeometryCount(geometry); ++k)
+        add_area(gdal::OGR_G_GetGeometryRef(geometry, k), areas, lowest_z);
     if (areas.empty()) return notes_.count("features that are no polygons are left out");
     const std::string name = unique_(title(feature));
     const auto height = height_m(feature);
@@ -306,18 +306,18 @@ class FootprintReader {
   void add_area(OGRGeometryH polygon, std::vector<PlanArea>& areas, double& lowest_z) {
     constexpr int least_corners = 4;  // the first one twice
     PlanArea area;
-    for (int r = 0; r < OGR_G_GetGeometryCount(polygon); ++r) {
-      OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, r);
-      const int count = OGR_G_GetPointCount(ring);
+    for (int r = 0; r < gdal::OGR_G_GetGeometryCount(polygon); ++r) {
+      OGRGeometryH ring = gdal::OGR_G_GetGeometryRef(polygon, r);
+      const int count = gdal::OGR_G_GetPointCount(ring);
       if (count < least_corners) {
         if (r == 0) return;
         continue;
       }
-      const bool has_z = OGR_G_Is3D(ring) != 0;
+      const bool has_z = gdal::OGR_G_Is3D(ring) != 0;
       std::vector<Point2> corners;
       for (int k = 0; k < count; ++k) {
-        corners.push_back(on_map(OGR_G_GetX(ring, k), OGR_G_GetY(ring, k)));
-        if (has_z) lowest_z = std::min(lowest_z, OGR_G_GetZ(ring, k) * unit_m_);
+        corners.push_back(on_map(gdal::OGR_G_GetX(ring, k), gdal::OGR_G_GetY(ring, k)));
+        if (has_z) lowest_z = std::min(lowest_z, gdal::OGR_G_GetZ(ring, k) * unit_m_);
       }
       area.push_back(std::move(corners));
     }
@@ -328,7 +328,7 @@ class FootprintReader {
   }
 
   Point2 on_map(double x, double y) const {
-    if (to_map_ && OCTTransform(to_map_.get(), 1, &x, &y, nullptr) == 0)
+    if (to_map_ && gdal::OCTTransform(to_map_.get(), 1, &x, &y, nullptr) == 0)
       fail(fmt::format("has the corner {:g}, {:g}", x, y), "it cannot be projected");
     const double scale = to_map_ ? 1 : unit_m_;
     const Vec3 place{x * scale, y * scale, 0};

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/scene/raster/gdal_file.h"
 
-#include <cpl_conv.h>
-
 #include <mutex>
 
 namespace sunload {
@@ -12,24 +10,24 @@ GdalDataset open_with_gdal(const std::string& path, unsigned flags,
                            std::vector<const char*> drivers) {
   static std::once_flag registered;
   std::call_once(registered, [] {
-    GDALAllRegister();
+    gdal::GDALAllRegister();
     // Rows are read once; the default is 5 % of all memory.
     constexpr GIntBig cache_bytes = 64'000'000;
-    GDALSetCacheMax64(cache_bytes);
+    gdal::GDALSetCacheMax64(cache_bytes);
   });
   drivers.push_back(nullptr);
   return GdalDataset(
-      GDALOpenEx(path.c_str(), flags | GDAL_OF_READONLY, drivers.data(), nullptr, nullptr));
+      gdal::GDALOpenEx(path.c_str(), flags | GDAL_OF_READONLY, drivers.data(), nullptr, nullptr));
 }
 
 std::string crs_name(OGRSpatialReferenceH crs) {
-  const char* authority = OSRGetAuthorityName(crs, nullptr);
-  const char* code = OSRGetAuthorityCode(crs, nullptr);
+  const char* authority = gdal::OSRGetAuthorityName(crs, nullptr);
+  const char* code = gdal::OSRGetAuthorityCode(crs, nullptr);
   if (authority != nullptr && code != nullptr) return std::string(authority) + ":" + code;
   char* text = nullptr;
   std::string name;
-  if (OSRExportToWkt(crs, &text) == OGRERR_NONE && text != nullptr) name = text;
-  CPLFree(text);
+  if (gdal::OSRExportToWkt(crs, &text) == OGRERR_NONE && text != nullptr) name = text;
+  gdal::VSIFree(text);
   return name;
 }
 

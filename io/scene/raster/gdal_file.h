@@ -3,28 +3,26 @@
 /// What readers by GDAL share: its drivers, its messages, its datasets.
 #pragma once
 
-#include <cpl_error.h>
-#include <gdal.h>
-#include <ogr_srs_api.h>
-
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "io/base/gdal.h"
 
 namespace sunload {
 
 /// GDAL's messages of one reading; they do not reach the standard error.
 class GdalMessages {
  public:
-  GdalMessages() { CPLPushErrorHandlerEx(&note, this); }
-  ~GdalMessages() { CPLPopErrorHandler(); }
+  GdalMessages() { gdal::CPLPushErrorHandlerEx(&note, this); }
+  ~GdalMessages() { gdal::CPLPopErrorHandler(); }
   GdalMessages(const GdalMessages&) = delete;
   GdalMessages& operator=(const GdalMessages&) = delete;
   const std::string& first() const { return first_; }
 
  private:
   static void CPL_STDCALL note(CPLErr, CPLErrorNum, const char* text) {
-    auto& self = *static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
+    auto& self = *static_cast<GdalMessages*>(gdal::CPLGetErrorHandlerUserData());
     if (self.first_.empty()) self.first_ = text;
   }
   std::string first_;
@@ -32,7 +30,7 @@ class GdalMessages {
 
 /// Closes a dataset of GDAL.
 struct CloseDataset {
-  void operator()(void* dataset) const { GDALClose(dataset); }
+  void operator()(void* dataset) const { gdal::GDALClose(dataset); }
 };
 using GdalDataset = std::unique_ptr<void, CloseDataset>;
 

@@ -86,8 +86,8 @@ class RasterReader {
     std::error_code unreadable;
     if (!dataset_ && !std::filesystem::exists(path_, unreadable)) fail("there is no such file");
     if (!dataset_) fail("cannot be read as a raster");
-    raster_.columns = static_cast<std::size_t>(GDALGetRasterXSize(dataset_.get()));
-    raster_.rows = static_cast<std::size_t>(GDALGetRasterYSize(dataset_.get()));
+    raster_.columns = static_cast<std::size_t>(gdal::GDALGetRasterXSize(dataset_.get()));
+    raster_.rows = static_cast<std::size_t>(gdal::GDALGetRasterYSize(dataset_.get()));
     if (static_cast<double>(raster_.columns) * static_cast<double>(raster_.rows) >
         most_raster_cells) {
       fail(fmt::format("has {} × {} cells", raster_.columns, raster_.rows),
@@ -100,11 +100,11 @@ class RasterReader {
       fail(fmt::format("has {} × {} cells", raster_.columns, raster_.rows),
            "they are too many for its size", "is it cut off?");
     }
-    if (GDALGetRasterCount(dataset_.get()) < 1) fail("has no band", "heights were expected");
+    if (gdal::GDALGetRasterCount(dataset_.get()) < 1) fail("has no band", "heights were expected");
     check_blocks();
-    if (GDALGetRasterCount(dataset_.get()) > 1)
+    if (gdal::GDALGetRasterCount(dataset_.get()) > 1)
       notes_.say("the first of several bands of the raster is taken for heights");
-    if (GDALGetGeoTransform(dataset_.get(), raster_.file_from_cell.data()) != CE_None)
+    if (gdal::GDALGetGeoTransform(dataset_.get(), raster_.file_from_cell.data()) != CE_None)
       fail("does not say where it lies", "it has no georeference");
     const auto& g = raster_.file_from_cell;
     if (!(std::abs(g[1] * g[5] - g[2] * g[4]) > 0))
@@ -114,12 +114,12 @@ class RasterReader {
   /// GDAL unpacks a block of all bands at once, whatever the size that the file states for it.
   void check_blocks() const {
     constexpr double most_bytes = 256e6;
-    auto* band = GDALGetRasterBand(dataset_.get(), 1);
+    auto* band = gdal::GDALGetRasterBand(dataset_.get(), 1);
     int width = 0, height = 0;
-    GDALGetBlockSize(band, &width, &height);
-    const int bands = GDALGetRasterCount(dataset_.get());
+    gdal::GDALGetBlockSize(band, &width, &height);
+    const int bands = gdal::GDALGetRasterCount(dataset_.get());
     const double bytes = static_cast<double>(width) * height * bands *
-                         GDALGetDataTypeSizeBytes(GDALGetRasterDataType(band));
+                         gdal::GDALGetDataTypeSizeBytes(gdal::GDALGetRasterDataType(band));
     if (bytes > most_bytes) {
       fail(fmt::format("has blocks of {} × {} cells in {} bands", width, height, bands),
            "they do not fit into memory", "store it in smaller tiles");
@@ -127,15 +127,15 @@ class RasterReader {
   }
 
   void read_crs() {
-    auto* crs = GDALGetSpatialRef(dataset_.get());
+    auto* crs = gdal::GDALGetSpatialRef(dataset_.get());
     if (crs == nullptr) return notes_.say("the raster itself names no CRS: site.crs or --crs may");
-    if (OSRIsGeographic(crs)) {
+    if (gdal::OSRIsGeographic(crs)) {
       fail("has coordinates in degrees", "distances are needed in metres",
            "project it first, for example with gdalwarp -t_srs EPSG:…");
     }
     raster_.crs = crs_name(crs);
     char* unit = nullptr;
-    plane_.m = OSRGetLinearUnits(crs, &unit);
+    plane_.m = gdal::OSRGetLinearUnits(crs, &unit);
     plane_.name = unit == nullptr ? "units" : unit;
     if (plane_.m != 1 && unit_m_ == 1) {
       notes_.say(
@@ -147,17 +147,18 @@ class RasterReader {
 
   /// That of the band, else of heights in the CRS; none where the file says none that is known.
   std::optional<NamedUnit> unit_of_heights() const {
-    if (const std::string name = GDALGetRasterUnitType(GDALGetRasterBand(dataset_.get(), 1));
+    if (const std::string name =
+            gdal::GDALGetRasterUnitType(gdal::GDALGetRasterBand(dataset_.get(), 1));
         !name.empty()) {
       if (const auto metres = length_of_unit(name)) return NamedUnit{name, *metres};
       notes_.say("heights of the raster are in '" + name +
                  "', an unknown unit: taken for that of its coordinates");
       return {};
     }
-    auto* crs = GDALGetSpatialRef(dataset_.get());
-    if (crs == nullptr || OSRIsCompound(crs) == 0) return {};
+    auto* crs = gdal::GDALGetSpatialRef(dataset_.get());
+    if (crs == nullptr || gdal::OSRIsCompound(crs) == 0) return {};
     char* unit = nullptr;
-    const double metres = OSRGetTargetLinearUnits(crs, "VERT_CS", &unit);
+    const double metres = gdal::OSRGetTargetLinearUnits(crs, "VERT_CS", &unit);
     return NamedUnit{unit == nullptr ? "units" : unit, metres};
   }
 
@@ -173,28 +174,28 @@ class RasterReader {
     plane_from_height_ = heights->m / plane_.m;
     notes_.say(text + ", converted to " +
                (plane_.m == 1 ? "metres" : plane_.name + ", the unit of its coordinates"));
-    auto* crs = GDALGetSpatialRef(dataset_.get());
-    if (crs == nullptr || OSRIsCompound(crs) == 0) return;
+    auto* crs = gdal::GDALGetSpatialRef(dataset_.get());
+    if (crs == nullptr || gdal::OSRIsCompound(crs) == 0) return;
     // Its heights are no longer those of the CRS.
-    auto* plane = OSRClone(crs);
-    if (OSRStripVertical(plane) == OGRERR_NONE) raster_.crs = crs_name(plane);
-    OSRRelease(plane);
+    auto* plane = gdal::OSRClone(crs);
+    if (gdal::OSRStripVertical(plane) == OGRERR_NONE) raster_.crs = crs_name(plane);
+    gdal::OSRRelease(plane);
   }
 
   void read_values() {
-    auto* band = GDALGetRasterBand(dataset_.get(), 1);
+    auto* band = gdal::GDALGetRasterBand(dataset_.get(), 1);
     auto& values = raster_.values;
     values.resize(raster_.columns * raster_.rows);
     const auto width = static_cast<int>(raster_.columns), height = static_cast<int>(raster_.rows);
-    if (GDALRasterIO(band, GF_Read, 0, 0, width, height, values.data(), width, height, GDT_Float64,
-                     0, 0) != CE_None)
+    if (gdal::GDALRasterIO(band, GF_Read, 0, 0, width, height, values.data(), width, height,
+                           GDT_Float64, 0, 0) != CE_None)
       fail("cannot be read to its end", {}, "is it cut off?");
     int has_no_data = 0;
-    double no_data = GDALGetRasterNoDataValue(band, &has_no_data);
-    if (GDALGetRasterDataType(band) == GDT_Float32)
+    double no_data = gdal::GDALGetRasterNoDataValue(band, &has_no_data);
+    if (gdal::GDALGetRasterDataType(band) == GDT_Float32)
       no_data = static_cast<double>(static_cast<float>(no_data));
-    const double scale = GDALGetRasterScale(band, nullptr);
-    const double offset = GDALGetRasterOffset(band, nullptr);
+    const double scale = gdal::GDALGetRasterScale(band, nullptr);
+    const double offset = gdal::GDALGetRasterOffset(band, nullptr);
     const auto is_valid = valid_cells(band, width, height);
     std::size_t missing = 0;
     for (std::size_t cell = 0; cell < values.size(); ++cell) {
@@ -214,10 +215,10 @@ class RasterReader {
 
   /// By the file's mask or alpha band: 0 where there is no data. Empty where it has none.
   std::vector<std::uint8_t> valid_cells(GDALRasterBandH band, int width, int height) const {
-    if ((GDALGetMaskFlags(band) & GMF_PER_DATASET) == 0) return {};
+    if ((gdal::GDALGetMaskFlags(band) & GMF_PER_DATASET) == 0) return {};
     std::vector<std::uint8_t> is_valid(raster_.columns * raster_.rows);
-    if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, width, height, is_valid.data(), width,
-                     height, GDT_Byte, 0, 0) != CE_None)
+    if (gdal::GDALRasterIO(gdal::GDALGetMaskBand(band), GF_Read, 0, 0, width, height,
+                           is_valid.data(), width, height, GDT_Byte, 0, 0) != CE_None)
       fail("has a mask that cannot be read to its end", {}, "is it cut off?");
     return is_valid;
   }
