@@ -45,6 +45,26 @@ void add_mesh(Digest& digest, const Mesh& mesh) {
   }
 }
 
+/// What selections and measures choose by. They may be asked for when all is computed: what they
+/// look at must be known to have stayed, whether there are any or not.
+void add_kinds_and_families(Digest& digest, const Mesh& mesh) {
+  digest.add(mesh.object_kinds);
+  const auto& [of_object, bare] = mesh.families;
+  const auto add_owner = [&](const Owner& owner) {
+    const auto& [object, bare_object] = owner;
+    digest.add(object);
+    digest.add(bare_object);
+  };
+  digest.add(of_object.size());
+  for (const Owner& owner : of_object) add_owner(owner);
+  digest.add(bare.size());
+  for (const auto& [name, kind, owner] : bare) {
+    digest.add(name);
+    digest.add(kind);
+    add_owner(owner);
+  }
+}
+
 // Every kind begins with its word.
 void add_smooth(Digest& digest, const ConstantShares& /*all are equal*/) {
   digest.add(std::string("constant"));
@@ -216,6 +236,7 @@ std::string content_hash(const Study& study, const BuiltScene& built, const Ligh
   digest.add(light.weather_sha256);
   add_site(digest, built.site);
   add_scene(digest, built.scene);
+  add_kinds_and_families(digest, built.scene.mesh);
   add_seasons(digest, seasons);
   add_totals(digest, part_totals(study, light, built.site.latitude_deg));
   if (!mesh_pilots.empty()) digest.add(mesh_pilots);

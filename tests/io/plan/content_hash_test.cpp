@@ -57,6 +57,13 @@ TEST(ContentHash, SeesWhatFilesAndTablesBring) {
       [](Content& c) { c.built.scene.mesh.object_names[0] = "home"; },
       [](Content& c) { c.built.scene.mesh.facades[0].name = "house/south_1"; },
       [](Content& c) { c.built.scene.mesh.origin.z = 1; },
+      [](Content& c) { c.built.scene.mesh.object_kinds = {"Building"}; },
+      [](Content& c) {
+        c.built.scene.mesh.families.of_object = {{ObjectId::none(), make_id<BareId>(0)}};
+      },
+      [](Content& c) {
+        c.built.scene.mesh.families.bare = {{"terrace", "Building"}};
+      },
       [](Content& c) { c.built.scene.material[0] = make_id<MaterialId>(1); },
       [](Content& c) { c.built.scene.parallel_sources.mesh.vertices[1].x = 2; },
       [](Content& c) { c.built.scene.parallel_sources.exitance[0] = 2; },
