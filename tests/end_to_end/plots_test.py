@@ -11,9 +11,11 @@ import csv
 import io
 import os
 import re
+import runpy
 import subprocess
 import sys
 import tempfile
+import traceback
 
 from skip import skip
 from small_study import SQUARE
@@ -36,14 +38,43 @@ SCRIPTS = ("facade_map", "series", "carpet", "months", "sun_path", "compare_bars
 
 
 class Plots:
-    """The scripts, called as users do."""
+    """The scripts, called as users do, but that Python with all its packages is there already: to start it takes longer
+    than most pictures."""
 
     def __init__(self, source, folder):
         self.scripts, self.folder = os.path.join(source, "scripts/plot"), folder
 
     def run(self, script, *words):
-        return subprocess.run(["/usr/bin/python3", "-B", os.path.join(self.scripts, script + ".py"), *words],
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder)
+        with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
+            child = os.fork()
+            if child == 0:
+                os.dup2(out.fileno(), 1)
+                os.dup2(err.fileno(), 2)
+                self.become(script, *words)
+            _, status = os.waitpid(child, 0)
+            out.seek(0)
+            err.seek(0)
+            return subprocess.CompletedProcess(words, os.waitstatus_to_exitcode(status), out.read(), err.read())
+
+    def become(self, script, *words):
+        """Never returns."""
+        code = 1
+        sys.stdout, sys.stderr = open(1, "w", encoding="utf-8"), open(2, "w", encoding="utf-8")
+        sys.argv = [os.path.join(self.scripts, script + ".py"), *words]
+        os.chdir(self.folder)
+        try:
+            runpy.run_path(sys.argv[0], run_name="__main__")
+            code = 0
+        except SystemExit as end:
+            code = end.code if isinstance(end.code, int) else int(end.code is not None)
+            if isinstance(end.code, str):
+                print(end.code, file=sys.stderr)
+        except BaseException:
+            traceback.print_exc()
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(code)
 
     def rows(self, script, *words):
         """What a script says that it drew, after a look at the picture."""
@@ -361,6 +392,7 @@ def test(sunload, source, folder):
     ran = subprocess.run([sunload, "run", "square.yaml"], cwd=folder, stderr=subprocess.PIPE, text=True)
     assert ran.returncode == 0, ran.stderr
     path, other = (os.path.join(folder, f"results/square/{name}.h5") for name in ("baseline", "bright"))
+    import drawing  # noqa: F401: what all scripts take longest to import
     plots = Plots(source, folder)
     os.environ["SUNLOAD"] = sunload
     test_interpreter(source, folder)
