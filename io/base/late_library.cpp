@@ -4,8 +4,6 @@
 
 #include <dlfcn.h>
 
-#include <map>
-#include <mutex>
 #include <string>
 
 #include "geo/base/check.h"
@@ -23,11 +21,8 @@ std::string load_error() {
 }  // namespace
 
 void* late_address(const char* library, const char* function) {
-  static std::mutex mutex;
-  static std::map<std::string, void*> libraries;
-  const std::lock_guard lock(mutex);
-  void*& handle = libraries[library];
-  if (handle == nullptr) handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
+  // What is loaded already is found again.
+  void* handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr)
     throw MachineError("cannot load the library " + std::string(library) + ": " + load_error() +
                        "; install its package");

@@ -239,11 +239,7 @@ void warn_of_no_values(const Study& study, const LightSeries& light,
                   "cie_overcast}, or weather with cloudy hours"));
 }
 
-void warn_of_lamps(const Study& study, const Scene& scene, std::vector<std::string>& warnings) {
-  const auto shines = [&](MaterialId id) { return scene.materials[id.index()].emission_w_m2 > 0; };
-  if (scene.luminaires.all.empty() &&
-      std::none_of(scene.material.begin(), scene.material.end(), shines))
-    return;
+void warn_of_lamps(const Study& study, std::vector<std::string>& warnings) {
   for (const MeasureParameters& of : study.measures)
     if (find_measure_rule(of.rule)->counts == MeasureRule::Counts::without_sun &&
         of.words.at("light") != "sky")

@@ -32,8 +32,8 @@ void expect_measurable(const Study& study, const LightSeries& light);
 void warn_of_no_values(const Study& study, const LightSeries& light,
                        std::vector<std::string>& warnings);
 
-/// Warns of measures of daylight that count what lamps of the scene bring.
-void warn_of_lamps(const Study& study, const Scene& scene, std::vector<std::string>& warnings);
+/// Of a scene with lamps: warns of measures of daylight that count what these bring.
+void warn_of_lamps(const Study& study, std::vector<std::string>& warnings);
 
 /// One measure of a study. What it refers to is kept by StudyMeasures.
 struct StudyMeasure {

@@ -70,7 +70,7 @@ VariantPlan unhashed_plan_of(const Study& study, BuiltScene built, LightSeries l
   warn_of_absent_places(study, plan.built, plan.built.warnings);
   warn_of_no_faces(study, plan.built, plan.built.warnings);
   warn_of_no_values(study, plan.light, plan.built.warnings);
-  warn_of_lamps(study, plan.built.scene, plan.built.warnings);
+  if (has_lamps(plan)) warn_of_lamps(study, plan.built.warnings);
   refuse_smooth_surfaces_in_a_matrix(plan);
   plan.pairing_id = pairing_id(study, plan.light);
   return plan;

@@ -210,7 +210,7 @@ TEST(House, OneFileKnowsEachForeignLibrary) {
       {"openssl", {"io/base/base64", "io/base/hash"}},
       {"half.h", {"io/base/half_float"}},
       {"CLI/", {"io/command/command_line"}},
-      {"gdal.h", {"io/base/gdal"}},
+      {"gdal", {"io/base/gdal"}},
       {"ogr_", {"io/base/gdal"}},
       {"cpl_", {"io/base/gdal"}},
       {"boost", {"io/base/statistics"}},

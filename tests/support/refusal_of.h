@@ -8,12 +8,13 @@
 
 namespace sunload::test {
 
-/// What the user is told where `work` refuses its input; empty where it does not.
-template <class Work>
+/// What the user is told where `work` refuses its input (or fails with another `Error`); empty
+/// where it does not.
+template <class Error = InputError, class Work>
 std::string refusal_of(const Work& work) {
   try {
     work();
-  } catch (const InputError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return {};

@@ -8,21 +8,12 @@
 #include <string>
 
 #include "geo/base/check.h"
+#include "tests/support/refusal_of.h"
 
-namespace sunload {
+namespace sunload::test {
 namespace {
 
 constexpr const char* c_mathematics = "libm.so.6";
-
-template <class Call>
-std::string problem_of(Call call) {
-  try {
-    call();
-  } catch (const MachineError& error) {
-    return error.what();
-  }
-  return "none";
-}
 
 TEST(LateLibrary, FunctionsAreCalledAsIfTheyWereLinked) {
   LateFunction<double(double, double)> power(c_mathematics, "pow");
@@ -32,16 +23,16 @@ TEST(LateLibrary, FunctionsAreCalledAsIfTheyWereLinked) {
 
 TEST(LateLibrary, WhatIsNotThereIsToldByName) {
   LateFunction<void()> of_no_library("libnobody_has.so.7", "anything");
-  const std::string no_library = problem_of([&] { of_no_library(); });
+  const std::string no_library = refusal_of<MachineError>([&] { of_no_library(); });
   EXPECT_NE(no_library.find("cannot load the library libnobody_has.so.7"), std::string::npos)
       << no_library;
   LateFunction<void()> no_function(c_mathematics, "function_that_nobody_has");
-  const std::string lacking = problem_of([&] { no_function(); });
+  const std::string lacking = refusal_of<MachineError>([&] { no_function(); });
   EXPECT_NE(lacking.find("libm.so.6 is another edition"), std::string::npos) << lacking;
   EXPECT_NE(lacking.find("function_that_nobody_has"), std::string::npos) << lacking;
   // Nothing is kept of a failure.
-  EXPECT_EQ(problem_of([&] { of_no_library(); }), no_library);
+  EXPECT_EQ(refusal_of<MachineError>([&] { of_no_library(); }), no_library);
 }
 
 }  // namespace
-}  // namespace sunload
+}  // namespace sunload::test
