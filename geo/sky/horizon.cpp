@@ -3,6 +3,7 @@
 #include "geo/sky/horizon.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -59,21 +60,54 @@ double Horizon::elevation_deg(double azimuth_deg) const {
   return low.elevation_deg + share * (high.elevation_deg - low.elevation_deg);
 }
 
+namespace {
+
+/// Share of a triangle in which the linear function with these values at its corners is above
+/// zero.
+double share_above_zero(std::array<double, 3> at) {
+  std::sort(at.begin(), at.end());
+  if (at[0] >= 0) return at[2] > 0 ? 1 : 0;
+  if (at[2] <= 0) return 0;
+  // The corner that is alone on its side of zero cuts off a triangle of its own shape's shares.
+  if (at[1] <= 0) return at[2] / (at[2] - at[0]) * (at[2] / (at[2] - at[1]));
+  return 1 - at[0] / (at[0] - at[1]) * (at[0] / (at[0] - at[2]));
+}
+
+}  // namespace
+
+double open_share(const Horizon& horizon, const std::function<Horizontal(double, double)>& place) {
+  constexpr int squares = 4;  // along a side, each of four triangles around its middle
+  const auto height = [&](double u, double v) {
+    const Horizontal at = place(u / squares, v / squares);
+    // Sines: solid angle grows with them.
+    return std::sin(radians(at.elevation_deg)) -
+           std::sin(radians(horizon.elevation_deg(at.azimuth_deg)));
+  };
+  std::array<std::array<double, squares + 1>, squares + 1> corner;
+  for (std::size_t i = 0; i <= squares; ++i)
+    for (std::size_t j = 0; j <= squares; ++j)
+      corner[i][j] = height(static_cast<double>(i), static_cast<double>(j));
+  double share = 0;
+  for (std::size_t i = 0; i < squares; ++i)
+    for (std::size_t j = 0; j < squares; ++j) {
+      const double middle = height(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5);
+      const std::array around{corner[i][j], corner[i + 1][j], corner[i + 1][j + 1],
+                              corner[i][j + 1]};
+      for (std::size_t k = 0; k < around.size(); ++k)
+        share += share_above_zero({middle, around[k], around[(k + 1) % around.size()]});
+    }
+  return share / (4 * squares * squares);
+}
+
 std::vector<double> open_shares(const SkyGrid& grid, const Horizon& horizon,
                                 const Rotation& scene_from_enu) {
   if (horizon.is_open()) return {};
-  constexpr int points = 8;
   const Rotation enu_from_scene = scene_from_enu.inverse();
   std::vector<double> shares;
-  for (int cell = 0; cell < grid.cell_count(); ++cell) {
-    int open = 0;
-    for (int i = 0; i < points; ++i)
-      for (int j = 0; j < points; ++j) {
-        const Vec3 w = grid.direction(cell, (i + 0.5) / points, (j + 0.5) / points);
-        if (horizon.is_above(horizontal(enu_from_scene(w)))) ++open;
-      }
-    shares.push_back(static_cast<double>(open) / (points * points));
-  }
+  for (int cell = 0; cell < grid.cell_count(); ++cell)
+    shares.push_back(open_share(horizon, [&](double u, double v) {
+      return horizontal(enu_from_scene(grid.direction(cell, u, v)));
+    }));
   return shares;
 }
 

@@ -3,6 +3,7 @@
 /// Hills around a site: the line that hides the low sky.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "geo/base/units.h"
@@ -36,8 +37,14 @@ class Horizon {
   std::vector<Horizontal> points_;
 };
 
-/// Which share of each cell of a grid in scene axes stands above the line; empty where the
-/// horizon is open. Counted on 8 × 8 points of every cell.
+/// Which share of a piece of the sky stands above the line. `place` takes the unit square
+/// (coordinates in [0, 1]) to the piece, equal areas to equal solid angles.
+///
+/// The height above the line is taken as linear between 41 places of the piece, and what is
+/// above zero of that counts exactly: also of a level line along one side.
+double open_share(const Horizon& horizon, const std::function<Horizontal(double, double)>& place);
+
+/// The same of each cell of a grid in scene axes; empty where the horizon is open.
 std::vector<double> open_shares(const SkyGrid& grid, const Horizon& horizon,
                                 const Rotation& scene_from_enu);
 

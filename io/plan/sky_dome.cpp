@@ -71,20 +71,14 @@ std::string sky_words(const LightStudy& light) {
   return {};
 }
 
-/// What of a patch hills leave free, counted on points of equal solid angle.
-double open_share(const SkyPatch& patch, const Horizon& hills) {
+double share_of_sky(const SkyPatch& patch, const Horizon& hills) {
   if (hills.is_open()) return 1;
-  constexpr int points = 8;
   const double low = std::sin(radians(patch.elevation_low_deg));
   const double high = std::sin(radians(patch.elevation_high_deg));
-  int open = 0;
-  for (int i = 0; i < points; ++i)
-    for (int j = 0; j < points; ++j) {
-      const double sine = low + (high - low) * (i + 0.5) / points;
-      const double turn = (patch.azimuth_high_deg - patch.azimuth_low_deg) * (j + 0.5) / points;
-      if (hills.is_above({patch.azimuth_low_deg + turn, degrees(std::asin(sine))})) ++open;
-    }
-  return static_cast<double>(open) / (points * points);
+  const double turn = patch.azimuth_high_deg - patch.azimuth_low_deg;
+  return open_share(hills, [&](double u, double v) -> Horizontal {
+    return {patch.azimuth_low_deg + u * turn, degrees(std::asin(low + v * (high - low)))};
+  });
 }
 
 }  // namespace
@@ -154,7 +148,7 @@ std::vector<SkyRow> sky_rows(const SkyDome& dome, std::optional<Subdivision> sub
   const auto patches = sky_patches(*subdivision);
   const auto radiance = mean_radiance(patches, dome.sky);
   for (std::size_t p = 0; p < patches.size(); ++p) {
-    rows.push_back(row_of(dome, patches[p].direction, open_share(patches[p], dome.hills),
+    rows.push_back(row_of(dome, patches[p].direction, share_of_sky(patches[p], dome.hills),
                           radiance[p], patches[p].solid_angle, patches[p].projected));
   }
   return rows;
