@@ -21,17 +21,18 @@ constexpr double node_dni = 1000;
 /// Ranked at the most; a year of a real site needs about half as many.
 constexpr std::size_t most_skies = 320, most_suns = 640;
 
-/// One row of a block as the compiler's vector, which any processor has in parts.
-using Row = float __attribute__((vector_size(block_width * sizeof(float))));
-
-using Codes = std::uint16_t __attribute__((vector_size(block_width * sizeof(std::uint16_t)),
-                                           aligned(alignof(std::uint16_t))));
+/// Parts of a row of a block as the compiler's vectors. A vector wider than the processor's own
+/// goes by way of memory (GCC 12: six times the time).
+using Four = float __attribute__((vector_size(16)));
+using Eight = float __attribute__((vector_size(32)));
+using Sixteen = float __attribute__((vector_size(64)));
 
 /// Sources of a block of nodes that have a part in a block of intervals.
 struct UsedNodes {
   std::size_t count = 0;
   std::array<std::size_t, block_width> source{};
-  alignas(64) std::array<Row, block_width> weights{};  ///< of codes of the source
+  /// Of codes of the source, in its column of each interval.
+  alignas(64) std::array<std::array<float, block_width>, block_width> weights{};
 
   UsedNodes(const PackedColumns& nodes, const NodeWeights& all) {
     for (std::size_t j = 0; j < block_width; ++j) {
@@ -46,41 +47,68 @@ struct UsedNodes {
 /// Σ_j nodes[j] weights[j][k] is added to rows [begin, end), which begin at `out`, aligned. Memory
 /// is asked meanwhile for the same rows of `next`, or null: each is read once, a chunk at a time,
 /// too short for the processor to see what comes.
-SUNLOAD_VECTOR_CODE void add_rows(const PackedColumns& nodes, const UsedNodes& used,
-                                  std::size_t begin, std::size_t end, const PackedColumns* next,
-                                  float* out) {
-  constexpr std::size_t together = 4;  // sums that need not wait for each other
-  Row* const sums = reinterpret_cast<Row*>(out);
+template <class Part>
+[[gnu::always_inline]] inline void add_rows_by(const PackedColumns& nodes, const UsedNodes& used,
+                                               std::size_t begin, std::size_t end,
+                                               const PackedColumns* next, float* out) {
+  constexpr std::size_t together = 4;  // rows, whose sums need not wait for each other
+  constexpr std::size_t parts = block_width * sizeof(float) / sizeof(Part);
   alignas(64) float codes[together][block_width];
   for (std::size_t i = begin; i < end; i += together) {
     // Of the last few rows some are made twice, and added once.
     const std::size_t last = end - 1;
     for (std::size_t r = 0; r < together; ++r) {
       const std::size_t row = std::min(i + r, last);
-      const auto* of_row = reinterpret_cast<const Codes*>(nodes.codes(row));
-      *reinterpret_cast<Row*>(codes[r]) = __builtin_convertvector(*of_row, Row);
+      const std::uint16_t* const of_row = nodes.codes(row);
+      for (std::size_t k = 0; k < block_width; ++k) codes[r][k] = of_row[k];
       if (next) __builtin_prefetch(next->codes(row));
     }
-    Row a{}, b{}, c{}, d{};
+    Part sums[together][parts]{};
     for (std::size_t n = 0; n < used.count; ++n) {
-      const Row w = used.weights[n];
+      const auto* const weights = reinterpret_cast<const Part*>(used.weights[n].data());
       const std::size_t j = used.source[n];
-      a += codes[0][j] * w;
-      b += codes[1][j] * w;
-      c += codes[2][j] * w;
-      d += codes[3][j] * w;
+#pragma GCC unroll 4
+      for (std::size_t r = 0; r < together; ++r)
+#pragma GCC unroll 4
+        for (std::size_t p = 0; p < parts; ++p) sums[r][p] += codes[r][j] * weights[p];
     }
-    const Row made[together] = {a, b, c, d};
-    for (std::size_t r = 0; r < std::min(together, end - i); ++r)
-      sums[i - begin + r] += made[r] * nodes.of_row(i + r);
+    for (std::size_t r = 0; r < std::min(together, end - i); ++r) {
+      auto* const to = reinterpret_cast<Part*>(out + (i - begin + r) * block_width);
+      for (std::size_t p = 0; p < parts; ++p) to[p] += sums[r][p] * nodes.of_row(i + r);
+    }
   }
+}
+
+using AddRows = void(const PackedColumns&, const UsedNodes&, std::size_t, std::size_t,
+                     const PackedColumns*, float*);
+
+__attribute__((target("avx512f"))) void add_rows_by_512_bits(const PackedColumns& nodes,
+                                                             const UsedNodes& used,
+                                                             std::size_t begin, std::size_t end,
+                                                             const PackedColumns* next,
+                                                             float* out) {
+  add_rows_by<Sixteen>(nodes, used, begin, end, next, out);
+}
+
+__attribute__((target("avx2"))) void add_rows_by_256_bits(const PackedColumns& nodes,
+                                                          const UsedNodes& used, std::size_t begin,
+                                                          std::size_t end,
+                                                          const PackedColumns* next, float* out) {
+  add_rows_by<Eight>(nodes, used, begin, end, next, out);
+}
+
+/// The widest that this processor has, as SUNLOAD_VECTOR_CODE would take it; of one text for all
+/// widths it would make the slow ones.
+AddRows* add_rows_of_this_machine() {
+  if (__builtin_cpu_supports("avx512f")) return add_rows_by_512_bits;
+  if (__builtin_cpu_supports("avx2")) return add_rows_by_256_bits;
+  return add_rows_by<Four>;
 }
 
 /// What the sources of a block of nodes bring while each shines for some time.
 struct TimedNodes {
-  using Sums = double __attribute__((vector_size(block_width * sizeof(double))));
   const PackedColumns* nodes;
-  Sums seconds;  ///< of codes of the source
+  std::array<double, block_width> seconds;  ///< of codes of the source
 
   TimedNodes(const PackedColumns& of_nodes, const NodeSeconds& of_sources) : nodes(&of_nodes) {
     for (std::size_t j = 0; j < block_width; ++j)
@@ -91,17 +119,15 @@ struct TimedNodes {
 /// Adds what all of them bring to receivers [begin, end).
 SUNLOAD_VECTOR_CODE void add_exposure(const std::vector<TimedNodes>& all, std::size_t begin,
                                       std::size_t end, double* exposure) {
-  using Sums = TimedNodes::Sums;
   constexpr std::size_t rows_ahead = 16;  // asked of memory
   for (std::size_t i = begin; i < end; ++i) {
-    Sums of_lanes{};  // sums that need not wait for each other
+    double of_lanes[block_width]{};  // sums that need not wait for each other
     for (const TimedNodes& block : all) {
       __builtin_prefetch(block.nodes->codes(std::min(i + rows_ahead, end - 1)));
-      const auto* codes = reinterpret_cast<const Codes*>(block.nodes->codes(i));
-      // By way of floats, which hold codes exactly: compilers know how.
-      const Row exact = __builtin_convertvector(*codes, Row);
-      of_lanes += __builtin_convertvector(exact, Sums) * block.seconds *
-                  static_cast<double>(block.nodes->of_row(i));
+      const std::uint16_t* const codes = block.nodes->codes(i);
+      const auto of_row = static_cast<double>(block.nodes->of_row(i));
+      for (std::size_t j = 0; j < block_width; ++j)
+        of_lanes[j] += static_cast<double>(static_cast<int>(codes[j])) * block.seconds[j] * of_row;
     }
     double sum = exposure[i];
     for (std::size_t j = 0; j < block_width; ++j) sum += of_lanes[j];
@@ -114,6 +140,7 @@ void combine(const std::vector<const PackedColumns*>& nodes,
              const std::vector<NodeWeights>& weights, Columns& out) {
   std::vector<std::pair<const PackedColumns*, UsedNodes>> parts;
   parts.reserve(nodes.size());
+  AddRows* const add_rows = add_rows_of_this_machine();
   for (std::size_t b = 0; b < nodes.size(); ++b)
     if (nodes[b] && !nodes[b]->empty() && weights[b].any)
       parts.emplace_back(nodes[b], UsedNodes(*nodes[b], weights[b]));
