@@ -201,27 +201,6 @@ class ShiftedClosure {
   double step_s_ = 0;
 };
 
-double overlap(double a_begin, double a_end, double b_begin, double b_end) {
-  return std::max(0.0, std::min(a_end, b_end) - std::max(a_begin, b_begin));
-}
-
-bool has_night_inside(const SunInterval& when) {
-  return when.up_s < when.up_end - when.up_begin - rounding_s;
-}
-
-/// Time that both have in common while the sun is up. Of two sunlit parts with a night between them
-/// only the ends are known, and how long they are together.
-double common_sunlit_s(const SunInterval& a, const SunInterval& b) {
-  const double hulls = overlap(a.up_begin, a.up_end, b.up_begin, b.up_end);
-  if (!has_night_inside(a) && !has_night_inside(b)) return hulls;
-  const auto holds = [](const SunInterval& outer, const SunInterval& inner) {
-    return outer.begin <= inner.begin + rounding_s && inner.end <= outer.end + rounding_s;
-  };
-  if (holds(a, b)) return b.up_s;
-  if (holds(b, a)) return a.up_s;
-  return std::min({hulls, a.up_s, b.up_s});
-}
-
 }  // namespace
 
 namespace {
@@ -393,34 +372,6 @@ WeatherLight with_sun(const std::vector<DatedWeather>& weather, const SunPath& p
         {path[i], mean_light(values, path[i], source, decomposition, elevation_m)});
   }
   return light;
-}
-
-Resampled resample(const std::vector<SunnyWeather>& weather, const SunPath& path) {
-  Resampled out;
-  out.mean.reserve(path.size());
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const SunInterval& to = path[i];
-    Irradiance sum;
-    double covered = 0;
-    auto from = std::upper_bound(weather.begin(), weather.end(), to.begin,
-                                 [](double t, const SunnyWeather& w) { return t < w.when.end; });
-    for (; from != weather.end() && from->when.begin < to.end; ++from) {
-      const SunInterval& w = from->when;
-      const double time = overlap(w.begin, w.end, to.begin, to.end);
-      covered += time;
-      // Of the record's beam as much as of its sunlit part lies in this one's.
-      const double lit = has_night_inside(w) ? w.up_s : w.up_end - w.up_begin;
-      const double beam_time = lit > 0 ? w.length_s() / lit * common_sunlit_s(w, to) : 0;
-      sum.dni += from->mean.dni * beam_time;
-      sum.dhi += from->mean.dhi * time;
-      sum.ghi +=
-          from->mean.dhi * time + (from->mean.ghi - from->mean.dhi) * (lit > 0 ? beam_time : time);
-    }
-    if (covered < to.length_s() - 1) out.uncovered.push_back(i);
-    const double length = to.length_s();
-    out.mean.push_back({sum.dni / length, sum.dhi / length, std::max(0.0, sum.ghi / length)});
-  }
-  return out;
 }
 
 Closure closure(const std::vector<DatedWeather>& weather, const SunPath& path,

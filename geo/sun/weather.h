@@ -126,13 +126,6 @@ struct WeatherLight {
 WeatherLight with_sun(const std::vector<DatedWeather>& weather, const SunPath& path,
                       WeatherSource source, Decomposition decomposition, double elevation_m);
 
-/// Means over other intervals, each overlapped by as much as there is.
-struct Resampled {
-  std::vector<Irradiance> mean;
-  std::vector<std::size_t> uncovered;  ///< intervals that weather does not cover, or not wholly
-};
-Resampled resample(const std::vector<SunnyWeather>& weather, const SunPath& path);
-
 /// GHI against DNI·sin(elevation) + DHI over the intervals with sun where all three are measured.
 struct Closure {
   std::size_t intervals = 0;

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "geo/base/units.h"
+#include "geo/sun/resample.h"
 #include "io/plan/weather_words.h"
 
 namespace sunload {
