@@ -272,6 +272,7 @@ const GroupShares::Shade& GroupShares::shade_at(std::uint32_t number, std::size_
   if (!shares_.faces().is_needed(found_[number], frames_[k].to_sun, 2 * disk) ||
       !outline(found_[number], before_[number], frames_[k], shade))
     shade.polygon.clear();
+  shade.area = shade.polygon.has_area() ? shade.polygon.area() : 0;
   return shade;
 }
 
@@ -283,6 +284,9 @@ float GroupShares::share(const Seen& patch) {
       block_[facing_.front()].disk_half_angle > 0 ||
       std::any_of(kept_.begin(), kept_.end(), [](const Shade* shade) { return !shade->is_solid; });
   if (is_for_rays) return LitShares::by_rays;
+  // The largest first: it leaves least to cut.
+  std::stable_sort(kept_.begin(), kept_.end(),
+                   [](const Shade* a, const Shade* b) { return a->area > b->area; });
   cover_.clear();
   for (const Shade* shade : kept_) cover_.push_back(&shade->polygon);
   const auto lit = area_.share(patch.polygon, cover_);
