@@ -84,6 +84,12 @@ bool MapAxes::is_in_use_at(double east, double north) const {
          parts_->area.contains(earth.lp.phi, earth.lp.lam);
 }
 
+bool are_of_one_map(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  const MapAxes of_a(a), of_b(b);
+  return of_a.is_known() && of_b.is_known() && of_a.name() == of_b.name();
+}
+
 std::string utm_at(double latitude_deg, double longitude_deg) {
   constexpr double half_turn = 180, zone_width = 6;
   constexpr int zones = 60, north_code = 32600, south_code = 32700;
@@ -101,7 +107,11 @@ MapFromDegrees::MapFromDegrees(const std::string& degrees, const std::string& ma
     : parts_(std::make_unique<Parts>()) {
   auto* const context = parts_->context.get();
   const ProjObject from = horizontal_part(context, crs_of_name(context, degrees)),
-                   to = crs_of_name(context, map);
+                   to = horizontal_part(context, crs_of_name(context, map));
+  if (to && (proj_get_type(to.get()) != PJ_TYPE_PROJECTED_CRS || unit_of(context, to.get()) != 1))
+    throw InputError({}, "degrees cannot be brought onto '" + map + "'",
+                     "it is no map projection in metres",
+                     "leave site.crs out, or convert the model to its coordinates");
   const ProjObject as_defined(
       from && to ? proj_create_crs_to_crs_from_pj(context, from.get(), to.get(), nullptr, nullptr)
                  : nullptr);

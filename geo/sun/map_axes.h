@@ -42,10 +42,14 @@ class MapAxes {
   std::unique_ptr<Parts> parts_;
 };
 
+/// Whether two systems have one map: with and without heights.
+bool are_of_one_map(const std::string& a, const std::string& b);
+
 /// The UTM zone (WGS84) of a point: `EPSG:32654`.
 std::string utm_at(double latitude_deg, double longitude_deg);
 
-/// From degrees of one CRS to another CRS, which is a map projection in metres.
+/// From degrees of one CRS to another CRS; throws InputError where that is no map projection in
+/// metres, and where PROJ knows no way.
 class MapFromDegrees {
  public:
   MapFromDegrees(const std::string& degrees, const std::string& map);

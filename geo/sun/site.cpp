@@ -150,14 +150,17 @@ Site site_from_crs(const std::string& crs, Vec3 position) {
 double map_stretch(const std::string& crs, Vec3 position) {
   const MapToEarth earth_from_map(crs);
   position.z = 0;  // maps show what lies at sea level
-  double most = 0;
-  for (const Vec3 step : {east, north}) {
-    const double ground_m = norm(ecef_position(earth_from_map(position + step)) -
-                                 ecef_position(earth_from_map(position - step)));
-    if (const double stretch = 2 * half_step_m / ground_m - 1; std::abs(stretch) > std::abs(most))
-      most = stretch;
-  }
-  return most;
+  const auto on_ground = [&](Vec3 step) {
+    return (ecef_position(earth_from_map(position + step)) -
+            ecef_position(earth_from_map(position - step))) /
+           (2 * half_step_m);
+  };
+  // Singular values of the ground's way by the map's, which are those of no axis where it shears.
+  const Vec3 a = on_ground(east), b = on_ground(north);
+  const double mean = (dot(a, a) + dot(b, b)) / 2;
+  const double off = std::hypot((dot(a, a) - dot(b, b)) / 2, dot(a, b));
+  const double longest = 1 / std::sqrt(mean - off) - 1, shortest = 1 / std::sqrt(mean + off) - 1;
+  return std::abs(longest) > std::abs(shortest) ? longest : shortest;
 }
 
 Vec3 map_position(const std::string& crs, double latitude_deg, double longitude_deg,

@@ -42,9 +42,9 @@ Vec3 ecef_position(const Site& site);
 /// and a point that has no place on Earth.
 Site site_from_crs(const std::string& crs, Vec3 position);
 
-/// By how much lengths on the map are longer than on the ground about a point, where that is most,
-/// along x or y: as share, below 0 where they are shorter. In UTM up to 0.001; in web Mercator 0.64
-/// at 52 degrees. Throws as `site_from_crs` does.
+/// By how much lengths on the map are longer than on the ground about a point, in the direction
+/// where that is most: as share, below 0 where they are shorter. In UTM up to 0.001; in web
+/// Mercator 0.64 at 52 degrees. Throws as `site_from_crs` does.
 double map_stretch(const std::string& crs, Vec3 position);
 
 /// Where a point of WGS84 lies on the map [m], east and north first; z is `height_m`. The way back

@@ -15,6 +15,7 @@
 #include "io/base/file_text.h"
 #include "io/base/standard_streams.h"
 #include "io/plan/scene_build.h"
+#include "io/plan/true_lengths.h"
 #include "io/scene/raster/land_horizon.h"
 #include "io/study/named_files.h"
 
@@ -57,6 +58,11 @@ LandHorizon horizon_of(const HorizonOptions& options, const Site& site, LandView
   for (const auto& note : notes.lines()) tell("note: " + note);
   view.place = map_position(crs, site.latitude_deg, site.longitude_deg, 0);
   view.grid_north_deg = site_from_crs(crs, view.place).north_deg;
+  const std::string warning = true_lengths_warning(
+      crs, view.place, site, {options.land},
+      "heights are not, and hills would stand too low or too high, or elsewhere",
+      "bring it onto a map that keeps lengths: gdalwarp -t_srs");
+  if (!warning.empty()) tell("warning: " + warning);
   return land_horizon(options.land, raster, unit_m, view);
 }
 

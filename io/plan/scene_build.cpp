@@ -18,6 +18,7 @@
 #include "io/plan/scene_edit.h"
 #include "io/plan/scene_land.h"
 #include "io/plan/scene_models.h"
+#include "io/plan/true_lengths.h"
 #include "io/plan/weather_light.h"
 #include "io/scene/file.h"
 
@@ -60,25 +61,6 @@ PrepareRules prepare_rules(const Study& study, const PolygonModel& model, const 
   return rules;
 }
 
-/// Maps that show lengths at another scale than heights have shadows of another length.
-void expect_true_lengths(const Study& study, const std::string& crs, Vec3 middle, const Site& site,
-                         BuiltScene& built) {
-  constexpr double doubtful = 0.005, refused = 0.05;  // UTM has up to 0.001 in its zone
-  const double stretch = map_stretch(crs, middle);
-  if (std::abs(stretch) <= doubtful) return;
-  const std::string what =
-      fmt::format("lengths on the map of '{}' are {:.2g} % {} than on the ground there", crs,
-                  100 * std::abs(stretch), stretch > 0 ? "longer" : "shorter");
-  const std::string why = "heights are not, and shadows would reach too far or not far enough";
-  const std::string hint =
-      fmt::format("convert the model to a projection that keeps lengths, such as {}",
-                  utm_at(site.latitude_deg, site.longitude_deg));
-  // Coordinates that do not belong to the map may be right all the same.
-  if (std::abs(stretch) > refused && area_of_use_warning(crs, middle).empty())
-    throw InputError(study.site.where, what, why, hint);
-  built.warnings.push_back(message({}, what, why, hint));
-}
-
 bool is_any_in_metres(const SceneStudy& scene) {
   return std::any_of(scene.files.begin(), scene.files.end(), [&](const SceneFileStudy& file) {
     return !file.is_placed() && file.unit_m.value_or(scene.unit_m) == 1;
@@ -117,11 +99,15 @@ Site site_on_map(const Study& study, const std::string& crs, const PolygonModel&
     built.site_source = "position from the study";
     return site;
   }
-  expect_true_lengths(study, crs, middle, site, built);
   built.site_source = given.latitude_deg ? "position from the study, north from " + crs
                                          : "position and north from " + crs;
-  for (const auto& warning : {unit_warning(study.scene, crs), area_of_use_warning(crs, middle),
-                              north_warning(given, crs, site.north_deg)})
+  const std::string of_lengths =
+      true_lengths_warning(crs, middle, site, given.where,
+                           "heights are not, and shadows would reach too far or not far enough",
+                           "convert the model to a projection that keeps lengths, such as");
+  for (const auto& warning :
+       {of_lengths, unit_warning(study.scene, crs), area_of_use_warning(crs, middle),
+        north_warning(given, crs, site.north_deg)})
     if (!warning.empty()) built.warnings.push_back(warning);
   if (!given.latitude_deg) return site;
   const double away_m = distance_m(site, {.latitude_deg = *given.latitude_deg,

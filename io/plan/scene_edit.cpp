@@ -14,6 +14,7 @@
 #include "geo/edit/objects.h"
 #include "geo/edit/raise.h"
 #include "geo/edit/solids.h"
+#include "geo/sun/map_axes.h"
 #include "geo/sun/site.h"
 #include "io/base/name_pattern.h"
 #include "io/plan/row_places.h"
@@ -270,9 +271,9 @@ class SceneEditor {
   void apply(const AddFileEdit& add) { add_file(add.file); }
 
   void add_file(const SceneFileStudy& file) {
-    PolygonModel part = read_part(file, study_.scene);
+    PolygonModel part = read_part(file, study_.scene, crs());
     if (file.is_placed()) place(part, place_of(file, crs()));
-    if (!part.crs.empty() && !model_.crs.empty() && part.crs != model_.crs)
+    if (!part.crs.empty() && !model_.crs.empty() && !are_of_one_map(part.crs, model_.crs))
       refuse("coordinates in " + part.crs, "the scene has " + model_.crs,
              "bring all files of a scene into one CRS, or give this one position_m");
     part.crs.clear();

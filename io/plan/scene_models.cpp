@@ -121,8 +121,10 @@ void give_material(PolygonModel& model, const std::string& name) {
 
 }  // namespace
 
-PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene) {
-  const auto rules = rules_of(file, scene);
+PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene,
+                       const std::string& crs) {
+  auto rules = rules_of(file, scene);
+  if (!file.is_placed()) rules.map_of_degrees = crs;
   PolygonModel part = file.terrain.empty() || is_of_footprints(file.path)
                           ? read_scene_file(file.path, rules)
                           : read_scene_blocks({.surface = file.path,
@@ -161,13 +163,6 @@ void convert_heights(double unit_m, PolygonModel& part) {
   part.crs = axes.name();
 }
 
-/// Whether two systems have one map: with and without heights.
-bool are_of_one_map(const std::string& a, const std::string& b) {
-  if (a == b) return true;
-  const MapAxes of_a(a), of_b(b);
-  return of_a.is_known() && of_b.is_known() && of_a.name() == of_b.name();
-}
-
 /// Reads, places and appends file by file; the CRS is that of the first file that stays in place.
 class SceneJoin {
  public:
@@ -191,7 +186,7 @@ class SceneJoin {
 
   void add(const SceneFileStudy& file) {
     try {
-      auto part = read_part(file, study_.scene);
+      auto part = read_part(file, study_.scene, crs());
       if (file.is_placed()) {
         if (!part.crs.empty())
           part.notes.push_back(short_name(file.path) +

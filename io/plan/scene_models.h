@@ -18,8 +18,9 @@ namespace sunload {
 /// Throws InputError with the problems of all files.
 PolygonModel read_models(const Study& study);
 
-/// One file as the study reads it, before it is placed.
-PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene);
+/// One file as the study reads it, before it is placed. Degrees of one that stays in place are
+/// brought onto the scene's map, `crs`, where that is known.
+PolygonModel read_part(const SceneFileStudy& file, const SceneStudy& scene, const std::string& crs);
 
 /// Puts `from` behind `into`: see read_models() for names that both have.
 void append(PolygonModel& into, const PolygonModel& from);

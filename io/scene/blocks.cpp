@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "geo/sun/map_axes.h"
 #include "io/scene/base/indexed_faces.h"
 #include "io/scene/base/plain_names.h"
 #include "io/scene/raster/raster.h"
@@ -94,7 +95,7 @@ class BlockReader {
       const Vec3 off = raster.place(column, row, 0) - surface_.place(column, row, 0);
       if (!(norm(off) <= grid_tolerance * cell)) refuse("lies on another grid");
     }
-    if (!raster.crs.empty() && !surface_.crs.empty() && raster.crs != surface_.crs)
+    if (!raster.crs.empty() && !surface_.crs.empty() && !are_of_one_map(raster.crs, surface_.crs))
       refuse("has coordinates in " + raster.crs);
     return raster;
   }
@@ -107,9 +108,14 @@ class BlockReader {
   void find_buildings() {
     buildings_.top.assign(cell_count(), nothing);
     const double least = files_.least_height_m / unit_m_;
-    for (std::size_t cell = 0; cell < cell_count(); ++cell)
+    std::size_t unknown = 0;
+    for (std::size_t cell = 0; cell < cell_count(); ++cell) {
+      if (std::isnan(surface_.values[cell]) && !std::isnan(terrain_.values[cell])) ++unknown;
       if (surface_.values[cell] - terrain_.values[cell] >= least)
         buildings_.top[cell] = surface_.values[cell];
+    }
+    faces_.notes().count("cells without data in the surface raster are taken for bare land",
+                         unknown);
   }
 
   /// Land at the corners of cells: the mean around it, never above a roof that stands there.

@@ -342,6 +342,11 @@ TEST(Outputs, AHorizonIsReadByTheStudyItIsOf) {
   const Ran none = program(folder, {"horizon", "dem.asc", "--study", "square.yaml"});
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("--crs"), std::string::npos) << none.err;
+  // Distances on it are 1.54 times those on the ground.
+  const Ran mercator =
+      program(folder, {"horizon", "dem.asc", "--study", "square.yaml", "--crs", "EPSG:3857"});
+  EXPECT_EQ(mercator.code, 2);
+  EXPECT_NE(mercator.err.find("longer than on the ground"), std::string::npos) << mercator.err;
   const Ran ran = program(folder, {"horizon", "dem.asc", "--study", "square.yaml", "--crs",
                                    "EPSG:32633", "-o", "hills.csv"});
   ASSERT_EQ(ran.code, 0) << ran.err;

@@ -32,6 +32,9 @@ struct SceneFileRules {
   VrmlColour vrml_colour = VrmlColour::mean;
   double emission_scale_w = 1;  ///< power that a VRML emissiveColor of strength 1 stands for [W]
   FootprintRules footprints = {};
+  /// Map that degrees are brought onto, as `site_from_crs` takes it; empty: the UTM zone of the
+  /// place.
+  std::string map_of_degrees = {};
 };
 
 }  // namespace sunload

@@ -121,7 +121,8 @@ bool is_north_first(const MapAxes& axes, const SrsName& name, const Sample& samp
 }  // namespace
 
 CityFrame::CityFrame(const CityDocument& document, CityCoordinates& coordinates,
-                     const SceneFromFile& scene_from_file, NoteCounter& notes)
+                     const SceneFromFile& scene_from_file, const std::string& map_of_degrees,
+                     NoteCounter& notes)
     : scene_from_file_(scene_from_file) {
   if (document.srs_name().empty()) return;
   if (document.srs_name().starts_with('#')) {
@@ -140,7 +141,7 @@ CityFrame::CityFrame(const CityDocument& document, CityCoordinates& coordinates,
   is_north_first_ = is_north_first(axes, name, sample, notes);
   if (!axes.is_in_degrees() || !sample.first) return;
   const Vec3 place = is_north_first_ ? exchanged(*sample.first) : *sample.first;
-  crs_ = utm_at(place.y, place.x);
+  crs_ = map_of_degrees.empty() ? utm_at(place.y, place.x) : map_of_degrees;
   map_from_degrees_ = std::make_unique<MapFromDegrees>(axes.name(), crs_);
   notes.say("degrees of the model are projected to " + crs_);
 }

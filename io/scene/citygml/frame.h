@@ -21,11 +21,12 @@ namespace sunload {
 /// that roofs and bodies face, which the wrong order mirrors; else by the form of the name. What
 /// was taken is noted. One that begins in the east is read otherwise only where its area of use
 /// says so (files that put northings first whatever their srsName). Positions in degrees are put on
-/// the UTM zone (WGS84) of the place.
+/// `map_of_degrees`, by default the UTM zone (WGS84) of the place.
 class CityFrame {
  public:
   CityFrame(const CityDocument& document, CityCoordinates& coordinates,
-            const SceneFromFile& scene_from_file, NoteCounter& notes);
+            const SceneFromFile& scene_from_file, const std::string& map_of_degrees,
+            NoteCounter& notes);
 
   /// Position in the scene; not finite where it has no place on the map.
   Vec3 operator()(Vec3 in_file) const;

@@ -32,7 +32,7 @@ class CityReader {
         wish_(rules.lod, path),
         document_(path, notes_),
         coordinates_(document_, notes_),
-        frame_(document_, coordinates_, scene_from_file_, notes_),
+        frame_(document_, coordinates_, scene_from_file_, rules.map_of_degrees, notes_),
         appearance_(document_, model_, notes_),
         writer_(
             document_, coordinates_, [this](Vec3 p) { return frame_(p); }, model_, notes_),

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "geo/edit/solids.h"
+#include "geo/sun/map_axes.h"
 #include "io/scene/base/from_file.h"
 #include "io/scene/raster/gdal_file.h"
 #include "io/scene/raster/raster.h"
@@ -25,10 +26,10 @@ constexpr std::size_t most_named = 5;
 
 /// Usual names of columns, the more telling first; lower case.
 using Names = std::vector<std::string_view>;
-const Names heights{"height",     "height_m",       "building_height", "bldg_height",
-                    "heightroof", "measuredheight", "b_hoogte",        "hoogte",
-                    "hoehe",      "hoehe_m",        "hauteur",         "vyska",
-                    "h"};
+// Not New York's heightroof, which is in feet: who names it sees to the unit.
+const Names heights{"height",         "height_m", "building_height", "bldg_height",
+                    "measuredheight", "b_hoogte", "hoogte",          "hoehe",
+                    "hoehe_m",        "hauteur",  "vyska",           "h"};
 const Names storeys{"building:levels", "building_levels", "storeys", "stories",   "levels",
                     "num_floors",      "floors",          "etages",  "geschosse", "podlazi"};
 const Names bases{"base_height", "base_m", "ground_height", "ground_elevation"};
@@ -37,27 +38,24 @@ const Names names{"id", "gml_id", "osm_id", "fid", "egid", "ref", "name"};
 struct DestroyFeature {
   void operator()(void* feature) const { gdal::OGR_F_Destroy(feature); }
 };
-struct DestroyTransform {
-  void operator()(void* transform) const { gdal::OCTDestroyCoordinateTransformation(transform); }
+struct DestroyGeometry {
+  void operator()(void* geometry) const { gdal::OGR_G_DestroyGeometry(geometry); }
 };
-struct ReleaseCrs {
-  void operator()(void* crs) const { gdal::OSRRelease(crs); }
-};
-using Crs = std::unique_ptr<void, ReleaseCrs>;
-
 class FootprintReader {
  public:
   FootprintReader(const std::string& path, const SceneFileRules& rules)
-      : path_(path), rules_(rules.footprints), unit_m_(rules.unit_m) {}
+      : path_(path), rules_(rules.footprints), map_(rules.map_of_degrees), unit_m_(rules.unit_m) {}
 
   PolygonModel read() {
     dataset_ =
         open_with_gdal(path_, GDAL_OF_VECTOR, {"GeoJSON", "GPKG", "ESRI Shapefile", "FlatGeobuf"});
     if (!dataset_) fail("cannot be read as footprints");
     layer_ = chosen_layer();
+    is_in_degrees_ = is_in_degrees();
     find_columns();
-    read_crs();
     read_terrain();
+    read_crs();
+    expect_terrain_of_the_map();
     model_.source = path_;
     model_.is_city_format = true;
     gdal::OGR_L_ResetReading(layer_);
@@ -70,6 +68,7 @@ class FootprintReader {
 
  private:
   using Feature = std::unique_ptr<void, DestroyFeature>;
+  using Geometry = std::unique_ptr<void, DestroyGeometry>;
 
   [[noreturn]] void fail_without_polygons() const {
     fail("has no polygons", "footprints were expected");
@@ -175,42 +174,45 @@ class FootprintReader {
   void read_crs() {
     OGRSpatialReferenceH crs = gdal::OGR_L_GetSpatialRef(layer_);
     if (crs == nullptr) return notes_.say("the footprints name no CRS: site.crs may");
-    if (gdal::OSRIsGeographic(crs) == 0) {
+    if (!is_in_degrees_) {
       model_.crs = crs_name(crs);
       return;
     }
     const OGREnvelope extent = extent_of_polygons();
     const double longitude = (extent.MinX + extent.MaxX) / 2,
                  latitude = (extent.MinY + extent.MaxY) / 2;
-    constexpr double most_degrees = 3, half_turn = 180, zone_width = 6;
-    constexpr int zones = 60, north_code = 32600, south_code = 32700;
+    constexpr double most_degrees = 3, half_turn = 180;
     constexpr double both_sides = 300;  // of the 180th meridian
     if (std::abs(latitude) < 90 && extent.MaxX <= half_turn && extent.MinX >= -half_turn &&
         extent.MaxX - extent.MinX > both_sides)
       fail("lies on both sides of the 180th meridian",
            "its degrees east are as far apart as they can be",
-           fmt::format("project it first, for example with ogr2ogr -t_srs EPSG:{}",
-                       (latitude < 0 ? south_code : north_code) + zones));
+           "project it first, for example with ogr2ogr -t_srs " + utm_at(latitude, half_turn - 1));
     if (!(std::abs(latitude) < 90 && extent.MaxX - extent.MinX < most_degrees))
       fail(fmt::format("lies between {:g} and {:g} degrees east, {:g} and {:g} north", extent.MinX,
                        extent.MaxX, extent.MinY, extent.MaxY),
            "that is no town", "are longitude and latitude exchanged?");
-    const int zone =
-        std::clamp(static_cast<int>((longitude + half_turn) / zone_width) + 1, 1, zones);
-    const Crs utm(gdal::OSRNewSpatialReference(nullptr)), degrees(gdal::OSRClone(crs));
-    gdal::OSRImportFromEPSG(utm.get(), (latitude < 0 ? south_code : north_code) + zone);
-    for (const auto* each : {&utm, &degrees})
-      gdal::OSRSetAxisMappingStrategy(each->get(), OAMS_TRADITIONAL_GIS_ORDER);
-    to_map_.reset(gdal::OCTNewCoordinateTransformation(degrees.get(), utm.get()));
-    if (!to_map_) fail("cannot be projected");
-    model_.crs = crs_name(utm.get());
+    const bool is_of_terrain = map_.empty() && terrain_ && !terrain_->crs.empty();
+    model_.crs = is_of_terrain ? terrain_->crs : !map_.empty() ? map_ : utm_at(latitude, longitude);
+    to_map_.emplace(crs_name(crs), model_.crs);
     notes_.say("degrees of the footprints are projected to " + model_.crs);
   }
 
+  bool is_in_degrees() const {
+    OGRSpatialReferenceH crs = gdal::OGR_L_GetSpatialRef(layer_);
+    return crs != nullptr && gdal::OSRIsGeographic(crs) != 0;
+  }
+  /// Degrees are brought onto a map in metres: the study's unit is that of heights then.
+  double map_unit_m() const { return is_in_degrees_ ? 1 : unit_m_; }
+
   void read_terrain() {
-    if (rules_.terrain.empty()) return;
-    terrain_ = read_raster(rules_.terrain, unit_m_, RasterValues::elevations, notes_);
-    if (!terrain_->crs.empty() && !model_.crs.empty() && terrain_->crs != model_.crs)
+    if (!rules_.terrain.empty())
+      terrain_ = read_raster(rules_.terrain, map_unit_m(), RasterValues::elevations, notes_);
+  }
+
+  void expect_terrain_of_the_map() const {
+    if (!terrain_) return;
+    if (!terrain_->crs.empty() && !model_.crs.empty() && !are_of_one_map(terrain_->crs, model_.crs))
       fail(fmt::format("is on the map {}, its terrain on {}", model_.crs, terrain_->crs),
            "feet would stand on land elsewhere",
            fmt::format("project one of them, e.g. gdalwarp -t_srs {}", model_.crs));
@@ -283,11 +285,7 @@ class FootprintReader {
     }
     std::vector<PlanArea> areas;
     double lowest_z = std::numeric_limits<double>::infinity();
-    if (gdal::OGR_GT_Flatten(gdal::OGR_G_GetGeometryType(geometry)) == wkbPolygon)
-      add_area(geometry, areas, lowest_z);
-    else if (gdal::OGR_GT_Flatten(gdal::OGR_G_GetGeometryType(geometry)) == wkbMultiPolygon)
-      for (int k = 0; k < gdal::OGR_G_GetGeometryCount(geometry); ++k)
-        add_area(gdal::OGR_G_GetGeometryRef(geometry, k), areas, lowest_z);
+    add_areas(geometry, areas, lowest_z);
     if (areas.empty()) return notes_.count("features that are no polygons are left out");
     const std::string name = unique_(title(feature));
     const auto height = height_m(feature);
@@ -301,6 +299,41 @@ class FootprintReader {
     const double foot = foot_m(feature, areas, lowest_z, name);
     add_prism(model_, areas, foot, foot + *height,
               {.name = name, .kind = "Building", .material = {}});
+  }
+
+  /// Of a polygon, or of several.
+  void add_areas(OGRGeometryH geometry, std::vector<PlanArea>& areas, double& lowest_z,
+                 bool is_cut = false) {
+    const auto type = gdal::OGR_GT_Flatten(gdal::OGR_G_GetGeometryType(geometry));
+    if (type == wkbMultiPolygon || type == wkbGeometryCollection) {
+      for (int k = 0; k < gdal::OGR_G_GetGeometryCount(geometry); ++k)
+        add_areas(gdal::OGR_G_GetGeometryRef(geometry, k), areas, lowest_z, is_cut);
+      return;
+    }
+    if (type != wkbPolygon) return;
+    const Geometry cut = !is_cut && crosses_itself(geometry) ? cut_at_crossings(geometry) : nullptr;
+    if (!cut) return add_area(geometry, areas, lowest_z);
+    notes_.count("polygons whose outlines cross or touch themselves are cut there");
+    add_areas(cut.get(), areas, lowest_z, true);
+  }
+
+  /// Walls of such an outline would look outward on one side of the crossing and inward on the
+  /// other.
+  static bool crosses_itself(OGRGeometryH polygon) {
+    for (int r = 0; r < gdal::OGR_G_GetGeometryCount(polygon); ++r) {
+      OGRGeometryH ring = gdal::OGR_G_GetGeometryRef(polygon, r);
+      const Geometry line(gdal::OGR_G_CreateGeometry(wkbLineString));  // of rings it is not told
+      for (int k = 0; k < gdal::OGR_G_GetPointCount(ring); ++k)
+        gdal::OGR_G_AddPoint(line.get(), gdal::OGR_G_GetX(ring, k), gdal::OGR_G_GetY(ring, k), 0);
+      if (gdal::OGR_G_IsSimple(line.get()) == 0) return true;
+    }
+    return false;
+  }
+  /// The same area in polygons that do not; null where GDAL cannot.
+  static Geometry cut_at_crossings(OGRGeometryH polygon) {
+    const GdalMessages of_this;  // where it cannot the polygon is taken as it is
+    Geometry parts(gdal::OGR_G_MakeValid(polygon));
+    return parts && gdal::OGR_G_GetDimension(parts.get()) == 2 ? std::move(parts) : nullptr;
   }
 
   void add_area(OGRGeometryH polygon, std::vector<PlanArea>& areas, double& lowest_z) {
@@ -328,10 +361,9 @@ class FootprintReader {
   }
 
   Point2 on_map(double x, double y) const {
-    if (to_map_ && gdal::OCTTransform(to_map_.get(), 1, &x, &y, nullptr) == 0)
+    const Vec3 place = to_map_ ? (*to_map_)(x, y, 0) : Vec3{x * map_unit_m(), y * map_unit_m(), 0};
+    if (to_map_ && !is_usable(place))
       fail(fmt::format("has the corner {:g}, {:g}", x, y), "it cannot be projected");
-    const double scale = to_map_ ? 1 : unit_m_;
-    const Vec3 place{x * scale, y * scale, 0};
     if (!is_usable(place)) fail("lies beyond all coordinates on Earth", "", "is unit_m right?");
     return {place.x, place.y};
   }
@@ -343,7 +375,7 @@ class FootprintReader {
       double lowest = std::numeric_limits<double>::infinity();
       for (const auto& area : areas)
         for (const Point2 corner : area.front())
-          if (const auto land = height_between_cells(*terrain_, unit_m_, corner.u, corner.v))
+          if (const auto land = height_between_cells(*terrain_, map_unit_m(), corner.u, corner.v))
             lowest = std::min(lowest, *land);
       if (std::isfinite(lowest)) return lowest;
       fail(name + " lies outside of the terrain", rules_.terrain + " has no land below it",
@@ -379,12 +411,14 @@ class FootprintReader {
 
   std::string path_;
   FootprintRules rules_;
+  std::string map_;  ///< for degrees; empty: the terrain's, or UTM
   double unit_m_;
   GdalMessages messages_;
   GdalDataset dataset_;
   OGRLayerH layer_ = nullptr;
+  bool is_in_degrees_ = false;
   int height_ = -1, storeys_ = -1, base_ = -1, name_ = -1;  ///< columns
-  std::unique_ptr<void, DestroyTransform> to_map_;  ///< of degrees; null: on the map already
+  std::optional<MapFromDegrees> to_map_;                    ///< none: on the map already
   std::optional<Raster> terrain_;
   PolygonModel model_;
   NoteCounter notes_;

@@ -210,7 +210,7 @@ class RasterReader {
       expect_usual(value, cell);
       value *= plane_from_height_;
     }
-    notes_.count("cells of the raster have no data and are left out", missing);
+    notes_.count("cells of the raster have no data", missing);
   }
 
   /// By the file's mask or alpha band: 0 where there is no data. Empty where it has none.

@@ -63,6 +63,14 @@ TEST(MapFromDegrees, IsTheWayBackFromTheMap) {
   EXPECT_EQ(there.z, 34);
   EXPECT_FALSE(std::isfinite(map(13.4, 500, 0).x));
   EXPECT_THROW(MapFromDegrees("no such thing", "EPSG:32633"), InputError);
+  EXPECT_THROW(MapFromDegrees("EPSG:4326", "EPSG:2263"), InputError);  // in feet
+  EXPECT_THROW(MapFromDegrees("EPSG:4326", "EPSG:4258"), InputError);
+}
+
+TEST(MapAxes, OneMapIsThatWithAndWithoutHeights) {
+  EXPECT_TRUE(are_of_one_map("EPSG:25833", "EPSG:25833+7837"));
+  EXPECT_TRUE(are_of_one_map("nonsense", "nonsense"));
+  EXPECT_FALSE(are_of_one_map("EPSG:25833", "EPSG:25832+7837"));
 }
 
 }  // namespace

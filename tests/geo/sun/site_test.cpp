@@ -222,5 +222,22 @@ TEST(Site, WarnsOutsideOfTheAreaOfUse) {
   EXPECT_EQ(area_of_use_warning("EPSG:2193", {1749000, 5428000, 0}), "");
 }
 
+TEST(Site, MapsAreStretchedWhereTheyShear) {
+  EXPECT_NEAR(map_stretch("EPSG:25833", {500000, 5500000, 0}), -0.0004, 1e-6);  // by definition
+  // Athens on the equal-area map of Europe: as much longer one way as shorter across, and neither
+  // is an axis. Against lengths on the ground in every direction.
+  const Vec3 athens{5520000, 1740000, 0};
+  double longest = -1;
+  const Site middle = site_from_crs("EPSG:3035", athens);
+  for (double angle = 0; angle < 180; ++angle) {
+    const Vec3 step{100 * std::cos(radians(angle)), 100 * std::sin(radians(angle)), 0};
+    const double ground = distance_m(middle, site_from_crs("EPSG:3035", athens + step));
+    longest = std::max(longest, 100 / ground - 1);
+  }
+  // The ground's way is a sphere's here: within its flattening.
+  EXPECT_NEAR(map_stretch("EPSG:3035", athens), longest, 1.0 / 298);
+  EXPECT_GT(longest, 0.008);
+}
+
 }  // namespace
 }  // namespace sunload

@@ -207,5 +207,24 @@ TEST(SiteOnMap, AMapThatCannotBeReadIsNotSaidToGiveNorth) {
   EXPECT_FALSE(says(words.text, "north from")) << words.text;
 }
 
+TEST(SiteOnMap, MapsThatShearAreWarnedOf) {
+  // Athens: walls that are square on the ground make angles of 91 degrees on it.
+  EXPECT_TRUE(says(on_map("crs: \"EPSG:3035\"", 5520000, 1740000).warnings, "lengths on the map"));
+}
+
+TEST(SiteOnMap, DegreesGoOntoTheMapOfTheStudy) {
+  // Passau lies in the zone beside the one that Bavaria uses.
+  write_text("plan.geojson",
+             R"({"type": "FeatureCollection", "features": [{"type": "Feature", )"
+             R"("properties": {"height": 9}, "geometry": {"type": "Polygon", "coordinates": )"
+             R"([[[13.46, 48.57], [13.461, 48.57], [13.461, 48.571], [13.46, 48.57]]]}}]})");
+  for (const char* crs : {"", "crs: \"EPSG:25832\", ", "crs: \"EPSG:25833+7837\", "}) {
+    const BuiltScene built = build_scene(study_of(crs + std::string("timezone: Europe/Berlin"),
+                                                  "days: [2024-06-21]", "files: [plan.geojson]"));
+    EXPECT_NEAR(built.site.latitude_deg, 48.5705, 1e-4) << crs;
+    EXPECT_NEAR(built.site.longitude_deg, 13.4605, 1e-4) << crs;
+  }
+}
+
 }  // namespace
 }  // namespace sunload

@@ -127,6 +127,8 @@ TEST(SceneBlocks, MissingCellsAreLeftOut) {
   const auto terrain = [](std::size_t c, std::size_t r) { return c == 4 ? -9999 : land(c, r); };
   const auto model = blocks(surface, terrain);
   EXPECT_TRUE(has_note(model, "5 cells of the raster have no data"));  // of both together
+  EXPECT_TRUE(
+      has_note(model, "1 cells without data in the surface raster are taken for bare land"));
   EXPECT_EQ(bounding_box(model.vertices).high.x, 1000 + 4 * cell);
   EXPECT_EQ(prepare(model, {}).report.closed_bodies, 2u);
 }

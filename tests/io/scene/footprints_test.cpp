@@ -222,5 +222,45 @@ TEST(Footprints, HeightsThatAreNoNumbersAreTold) {
                        "count as not written"));
 }
 
+TEST(Footprints, OfNewYorkAreNotTakenForMetres) {
+  const std::string ring = "[" + square(0, 0, 9) + "]";
+  const std::string refused =
+      refusal("plan.geojson", plan({feature(R"("heightroof": 100)", ring)}), {});
+  EXPECT_NE(refused.find("its columns: heightroof"), std::string::npos) << refused;
+}
+
+TEST(Footprints, InDegreesHaveHeightsInTheStudysUnit) {
+  // The land is on its map in metres, whatever the unit of heights.
+  const WorkFolder folder;
+  SceneFileRules rules;
+  rules.unit_m = 0.3048;
+  rules.footprints.terrain =
+      folder.write("land.asc",
+                   "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 5000000\ncellsize 500000\n"
+                   "300 300\n300 300\n");
+  const auto model =
+      read_text("plan.json",
+                plan({feature(R"("height": 100)",
+                              "[[[15.001, 49.6535], [15.002, 49.6535], [15.002, 49.654], "
+                              "[15.001, 49.6535]]]")},
+                     ""),
+                rules);
+  EXPECT_NEAR(extent(model, 0).first, 300, 1e-9);
+  EXPECT_NEAR(extent(model, 0).second, 300 + 30.48, 1e-9);
+}
+
+/// Walls of an outline that crosses itself would look outward at one end and inward at the other.
+TEST(Footprints, OutlinesThatCrossThemselvesAreCut) {
+  const auto model = read_text(
+      "plan.geojson",
+      plan({feature(R"("height": 6)", "[[[0, 0], [20, 0], [0, 20], [20, 20], [0, 0]]]")}));
+  EXPECT_EQ(model.object_names.size(), 1u);
+  EXPECT_EQ(model.polygon_count(), 2 * 5u);  // two prisms of three walls, a roof and a floor
+  EXPECT_TRUE(has_note(model, "1 polygons whose outlines cross or touch themselves are cut there"));
+  const auto plain =
+      read_text("plan.geojson", plan({feature(R"("height": 6)", "[" + square(0, 0, 9) + "]")}));
+  EXPECT_FALSE(has_note(plain, "cut there"));
+}
+
 }  // namespace
 }  // namespace sunload
