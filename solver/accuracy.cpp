@@ -216,7 +216,7 @@ SampleCounts needed_counts(const PatchSpread& spread, const SolverRules& least,
       if (auto counts = with_lines(D, *S); cost.of(counts) < cost.of(chosen))
         chosen = std::move(counts);
   }
-  chosen.share = share_met(spread, stated, chosen);
+  chosen.share = share_met(spread, goal, chosen);
   return chosen;
 }
 

@@ -174,6 +174,11 @@ class FootprintReader {
   void read_crs() {
     OGRSpatialReferenceH crs = gdal::OGR_L_GetSpatialRef(layer_);
     if (crs == nullptr) return notes_.say("the footprints name no CRS: site.crs may");
+    if (!is_in_degrees_ && gdal::OSRIsGeographic(crs) != 0) {
+      notes_.say("numbers of the footprints are no degrees: coordinates of " + map_);
+      model_.crs = map_;
+      return;
+    }
     if (!is_in_degrees_) {
       model_.crs = crs_name(crs);
       return;
@@ -191,16 +196,24 @@ class FootprintReader {
     if (!(std::abs(latitude) < 90 && extent.MaxX - extent.MinX < most_degrees))
       fail(fmt::format("lies between {:g} and {:g} degrees east, {:g} and {:g} north", extent.MinX,
                        extent.MaxX, extent.MinY, extent.MaxY),
-           "that is no town", "are longitude and latitude exchanged?");
+           "that is no town",
+           "are longitude and latitude exchanged? If these are metres of a map, site.crs names it");
     const bool is_of_terrain = map_.empty() && terrain_ && !terrain_->crs.empty();
     model_.crs = is_of_terrain ? terrain_->crs : !map_.empty() ? map_ : utm_at(latitude, longitude);
     to_map_.emplace(crs_name(crs), model_.crs);
     notes_.say("degrees of the footprints are projected to " + model_.crs);
   }
 
+  /// GeoJSON that names no CRS is in degrees by its standard, and often in metres of the scene's
+  /// map.
   bool is_in_degrees() const {
     OGRSpatialReferenceH crs = gdal::OGR_L_GetSpatialRef(layer_);
-    return crs != nullptr && gdal::OSRIsGeographic(crs) != 0;
+    if (crs == nullptr || gdal::OSRIsGeographic(crs) == 0) return false;
+    if (map_.empty()) return true;
+    constexpr double most_north = 90, most_east = 360;
+    const OGREnvelope extent = extent_of_polygons();
+    return std::max(-extent.MinY, extent.MaxY) <= most_north &&
+           std::max(-extent.MinX, extent.MaxX) <= most_east;
   }
   /// Degrees are brought onto a map in metres: the study's unit is that of heights then.
   double map_unit_m() const { return is_in_degrees_ ? 1 : unit_m_; }

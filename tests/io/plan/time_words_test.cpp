@@ -226,5 +226,20 @@ TEST(SiteOnMap, DegreesGoOntoTheMapOfTheStudy) {
   }
 }
 
+TEST(SiteOnMap, NumbersThatAreNoDegreesAreMetresOfTheStudysMap) {
+  write_text(
+      "plan.geojson",
+      R"({"type": "FeatureCollection", "features": [{"type": "Feature", )"
+      R"("properties": {"height": 9}, "geometry": {"type": "Polygon", "coordinates": )"
+      R"([[[391000, 5820000], [391009, 5820000], [391009, 5820009], [391000, 5820000]]]}}]})");
+  const auto site = [](const std::string& crs) {
+    return build_scene(study_of(crs + "timezone: Europe/Berlin", "days: [2024-06-21]",
+                                "files: [plan.geojson]"))
+        .site;
+  };
+  EXPECT_NEAR(site("crs: \"EPSG:25833\", ").latitude_deg, 52.52, 0.01);
+  EXPECT_TRUE(says(test::refusal_of([&] { site(""); }), "metres of a map, site.crs names it"));
+}
+
 }  // namespace
 }  // namespace sunload
