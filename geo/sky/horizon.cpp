@@ -104,6 +104,7 @@ std::vector<double> open_shares(const SkyGrid& grid, const Horizon& horizon,
   if (horizon.is_open()) return {};
   const Rotation enu_from_scene = scene_from_enu.inverse();
   std::vector<double> shares;
+  shares.reserve(static_cast<std::size_t>(grid.cell_count()));
   for (int cell = 0; cell < grid.cell_count(); ++cell)
     shares.push_back(open_share(horizon, [&](double u, double v) {
       return horizontal(enu_from_scene(grid.direction(cell, u, v)));
