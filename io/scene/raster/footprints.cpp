@@ -41,6 +41,7 @@ struct DestroyFeature {
 struct DestroyGeometry {
   void operator()(void* geometry) const { gdal::OGR_G_DestroyGeometry(geometry); }
 };
+
 class FootprintReader {
  public:
   FootprintReader(const std::string& path, const SceneFileRules& rules)
