@@ -17,6 +17,7 @@ struct Id {
   static constexpr Id none() { return {}; }
   constexpr bool exists() const { return value >= 0; }
   constexpr std::size_t index() const { return static_cast<std::size_t>(value); }
+  // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 tells it of comparisons
   friend auto operator<=>(const Id&, const Id&) = default;
 };
 
