@@ -3,7 +3,8 @@
 /// Functions that are there for every width of vectors that processors have; the program takes the
 /// widest when it starts. Their numbers are the same for all (no contraction of products and sums).
 /// Compilers leave loops scalar where what is written might be what is read: __restrict says that
-/// it is not, and -fopt-info-vec-optimized what became of each loop.
+/// it is not, and -fopt-info-vec-optimized what became of each loop. The compiler's own vector
+/// types have one width in all of these functions, and a processor with less goes by way of memory.
 #pragma once
 
 /// Before a function. Not with the thread sanitizer: functions are chosen before it is ready.

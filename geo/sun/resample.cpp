@@ -3,19 +3,12 @@
 #include "geo/sun/resample.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "geo/base/units.h"
 
 namespace sunload {
 
 namespace {
 
 constexpr double rounding_s = 1e-3;
-
-double sine_of_sun(const SunInterval& when) {
-  return std::max(0.0, std::sin(radians(when.sun.elevation_deg)));
-}
 
 double overlap(double a_begin, double a_end, double b_begin, double b_end) {
   return std::max(0.0, std::min(a_end, b_end) - std::max(a_begin, b_begin));

@@ -110,7 +110,7 @@ class GapFiller {
 /// Light of a record while the sun is up, as means over the whole record.
 Irradiance divided(const WeatherValues& values, const SunInterval& when, WeatherSource source,
                    Decomposition decomposition, double elevation_m) {
-  const double sine = sine_of_elevation(when.sun.elevation_deg);
+  const double sine = sine_of_sun(when);
   const double share = when.up_s / when.length_s();
   const double outside = extraterrestrial(when.sun.distance_au);
   const double strongest = strongest_beam(when);
@@ -157,8 +157,7 @@ Irradiance mean_light(const WeatherValues& values, const SunInterval& when, Weat
   } else {
     mean.dhi = dark_dhi(values, source);
   }
-  mean.ghi =
-      values.ghi ? *values.ghi : mean.dni * sine_of_elevation(when.sun.elevation_deg) + mean.dhi;
+  mean.ghi = values.ghi ? *values.ghi : mean.dni * sine_of_sun(when) + mean.dhi;
   return mean;
 }
 
@@ -201,10 +200,6 @@ class ShiftedClosure {
   double step_s_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 /// 28 February as well: typical years have no other one.
 bool is_last_of_month(const WeatherRecord& r) {
   return !has_day(r.year, r.month, r.day + 1) || (r.month == 2 && r.day == 28);
@@ -236,6 +231,8 @@ void begin_with_january(std::vector<DatedWeather>& weather) {
 }
 
 }  // namespace
+
+double sine_of_sun(const SunInterval& when) { return sine_of_elevation(when.sun.elevation_deg); }
 
 bool years_follow(const std::vector<WeatherRecord>& records) {
   return std::adjacent_find(records.begin(), records.end(),
@@ -382,7 +379,7 @@ Closure closure(const std::vector<DatedWeather>& weather, const SunPath& path,
   for (std::size_t i = 0; i < path.size(); ++i) {
     const auto& [dni, dhi, ghi, albedo] = weather[i].values;
     if (!dni || !dhi || !ghi || path[i].up_s <= 0) continue;
-    const double residual = *dni * sine_of_elevation(path[i].sun.elevation_deg) + *dhi - *ghi;
+    const double residual = *dni * sine_of_sun(path[i]) + *dhi - *ghi;
     ++result.intervals;
     result.mean_ghi += *ghi;
     result.bias += residual;

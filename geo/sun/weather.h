@@ -18,6 +18,9 @@
 
 namespace sunload {
 
+/// Of the elevation of an interval's sun; 0 below the horizon.
+double sine_of_sun(const SunInterval& when);
+
 /// Which instant of a row's stretch its stamp names.
 enum class Stamp { start, middle, end };
 

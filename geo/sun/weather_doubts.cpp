@@ -32,8 +32,7 @@ WeatherDoubts doubts_of(const std::vector<DatedWeather>& weather, const SunPath&
   for (std::size_t i = 0; i < path.size(); ++i) {
     const DatedWeather& record = weather[i];
     const auto& [dni, dhi, ghi, albedo] = record.values;
-    const double sine =
-        path[i].up_s > 0 ? std::max(0.0, std::sin(radians(path[i].sun.elevation_deg))) : 0;
+    const double sine = path[i].up_s > 0 ? sine_of_sun(path[i]) : 0;
     if (dni && path[i].up_s > 0)
       add_doubt(doubts.dni, record, *dni, extraterrestrial(path[i].sun.distance_au), sine);
     if (!ghi) continue;

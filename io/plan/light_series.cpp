@@ -191,7 +191,7 @@ void make_sky_absolute(LitInterval& interval, const LightStudy& light) {
 
 LitInterval fixed_light(const SunInterval& when, const LightStudy& light) {
   const bool is_absolute = light.sky_scale == SkyScale::absolute;
-  const double sin_elevation = std::max(0.0, std::sin(radians(when.sun.elevation_deg)));
+  const double sin_elevation = sine_of_sun(when);
   const double dhi = is_absolute ? 0 : light.dhi_w_m2;
   LitInterval interval{when, {}, {light.dni_w_m2, dhi, light.dni_w_m2 * sin_elevation + dhi}};
   if (is_absolute && when.up_s > 0) make_sky_absolute(interval, light);

@@ -238,9 +238,6 @@ void GroupShares::tell_patch(std::uint32_t patch) {
     if (shaded != Overlap::none) chosen_.push_back(number);
   }
   if (chosen_.empty()) return tell(patch, 1);
-  // Polygons are taken away in an order, and so rounded, that no other sun has a part in.
-  std::sort(chosen_.begin(), chosen_.end(),
-            [this](std::uint32_t a, std::uint32_t b) { return found_[a] < found_[b]; });
   for (const auto k : facing_) out_[patch * block_width + k] = share_at(patch, k);
 }
 
@@ -272,6 +269,7 @@ const GroupShares::Shade& GroupShares::shade_at(std::uint32_t number, std::size_
   if (!shares_.faces().is_needed(found_[number], frames_[k].to_sun, 2 * disk) ||
       !outline(found_[number], before_[number], frames_[k], shade))
     shade.polygon.clear();
+  shade.face = found_[number];
   shade.area = shade.polygon.has_area() ? shade.polygon.area() : 0;
   return shade;
 }
@@ -284,9 +282,11 @@ float GroupShares::share(const Seen& patch) {
       block_[facing_.front()].disk_half_angle > 0 ||
       std::any_of(kept_.begin(), kept_.end(), [](const Shade* shade) { return !shade->is_solid; });
   if (is_for_rays) return LitShares::by_rays;
-  // The largest first: it leaves least to cut.
-  std::stable_sort(kept_.begin(), kept_.end(),
-                   [](const Shade* a, const Shade* b) { return a->area > b->area; });
+  // Polygons are taken away in an order, and so rounded, that no other sun has a part in: the
+  // largest first, which leaves least to cut.
+  std::sort(kept_.begin(), kept_.end(), [](const Shade* a, const Shade* b) {
+    return a->area > b->area || (a->area == b->area && a->face < b->face);
+  });
   cover_.clear();
   for (const Shade* shade : kept_) cover_.push_back(&shade->polygon);
   const auto lit = area_.share(patch.polygon, cover_);

@@ -54,7 +54,9 @@ class GroupShares {
     ViewBox box;
     double wider_x = 0, wider_y = 0;  ///< what is nearer to it than that may be shaded or not [m]
     bool is_solid = true;
-    double area = 0;  ///< of shades of one sun [m2]
+    // Of shades of one sun:
+    std::uint32_t face = 0;
+    double area = 0;  ///< [m2]
   };
   /// How far the corners of a face are before the plane of the group [m].
   struct Before {

@@ -14,6 +14,7 @@
 #include "geo/edit/solids.h"
 #include "geo/sun/map_axes.h"
 #include "io/scene/base/from_file.h"
+#include "io/scene/raster/crossing_outlines.h"
 #include "io/scene/raster/gdal_file.h"
 #include "io/scene/raster/raster.h"
 
@@ -38,10 +39,6 @@ const Names names{"id", "gml_id", "osm_id", "fid", "egid", "ref", "name"};
 struct DestroyFeature {
   void operator()(void* feature) const { gdal::OGR_F_Destroy(feature); }
 };
-struct DestroyGeometry {
-  void operator()(void* geometry) const { gdal::OGR_G_DestroyGeometry(geometry); }
-};
-
 class FootprintReader {
  public:
   FootprintReader(const std::string& path, const SceneFileRules& rules)
@@ -69,7 +66,6 @@ class FootprintReader {
 
  private:
   using Feature = std::unique_ptr<void, DestroyFeature>;
-  using Geometry = std::unique_ptr<void, DestroyGeometry>;
 
   [[noreturn]] void fail_without_polygons() const {
     fail("has no polygons", "footprints were expected");
@@ -156,7 +152,8 @@ class FootprintReader {
   // ---- place
 
   /// The extent that a GeoPackage stores is for information, and often that of a whole country.
-  OGREnvelope extent_of_polygons() const {
+  const OGREnvelope& extent_of_polygons() {
+    if (extent_) return *extent_;
     OGREnvelope all;
     gdal::OGR_L_ResetReading(layer_);
     while (const Feature feature{gdal::OGR_L_GetNextFeature(layer_)}) {
@@ -169,22 +166,20 @@ class FootprintReader {
       all.Merge(one);
     }
     if (all.IsInit() == 0) fail_without_polygons();
-    return all;
+    return extent_.emplace(all);
   }
 
   void read_crs() {
     OGRSpatialReferenceH crs = gdal::OGR_L_GetSpatialRef(layer_);
     if (crs == nullptr) return notes_.say("the footprints name no CRS: site.crs may");
-    if (!is_in_degrees_ && gdal::OSRIsGeographic(crs) != 0) {
-      notes_.say("numbers of the footprints are no degrees: coordinates of " + map_);
-      model_.crs = map_;
-      return;
-    }
     if (!is_in_degrees_) {
-      model_.crs = crs_name(crs);
+      const bool says_degrees = gdal::OSRIsGeographic(crs) != 0;
+      if (says_degrees)
+        notes_.say("numbers of the footprints are no degrees: coordinates of " + map_);
+      model_.crs = says_degrees ? map_ : crs_name(crs);
       return;
     }
-    const OGREnvelope extent = extent_of_polygons();
+    const OGREnvelope& extent = extent_of_polygons();
     const double longitude = (extent.MinX + extent.MaxX) / 2,
                  latitude = (extent.MinY + extent.MaxY) / 2;
     constexpr double most_degrees = 3, half_turn = 180;
@@ -207,12 +202,12 @@ class FootprintReader {
 
   /// GeoJSON that names no CRS is in degrees by its standard, and often in metres of the scene's
   /// map.
-  bool is_in_degrees() const {
+  bool is_in_degrees() {
     OGRSpatialReferenceH crs = gdal::OGR_L_GetSpatialRef(layer_);
     if (crs == nullptr || gdal::OSRIsGeographic(crs) == 0) return false;
     if (map_.empty()) return true;
     constexpr double most_north = 90, most_east = 360;
-    const OGREnvelope extent = extent_of_polygons();
+    const OGREnvelope& extent = extent_of_polygons();
     return std::max(-extent.MinY, extent.MaxY) <= most_north &&
            std::max(-extent.MinX, extent.MaxX) <= most_east;
   }
@@ -325,29 +320,11 @@ class FootprintReader {
       return;
     }
     if (type != wkbPolygon) return;
-    const Geometry cut = !is_cut && crosses_itself(geometry) ? cut_at_crossings(geometry) : nullptr;
+    const GdalGeometry cut =
+        !is_cut && crosses_itself(geometry) ? cut_at_crossings(geometry) : nullptr;
     if (!cut) return add_area(geometry, areas, lowest_z);
     notes_.count("polygons whose outlines cross or touch themselves are cut there");
     add_areas(cut.get(), areas, lowest_z, true);
-  }
-
-  /// Walls of such an outline would look outward on one side of the crossing and inward on the
-  /// other.
-  static bool crosses_itself(OGRGeometryH polygon) {
-    for (int r = 0; r < gdal::OGR_G_GetGeometryCount(polygon); ++r) {
-      OGRGeometryH ring = gdal::OGR_G_GetGeometryRef(polygon, r);
-      const Geometry line(gdal::OGR_G_CreateGeometry(wkbLineString));  // of rings it is not told
-      for (int k = 0; k < gdal::OGR_G_GetPointCount(ring); ++k)
-        gdal::OGR_G_AddPoint(line.get(), gdal::OGR_G_GetX(ring, k), gdal::OGR_G_GetY(ring, k), 0);
-      if (gdal::OGR_G_IsSimple(line.get()) == 0) return true;
-    }
-    return false;
-  }
-  /// The same area in polygons that do not; null where GDAL cannot.
-  static Geometry cut_at_crossings(OGRGeometryH polygon) {
-    const GdalMessages of_this;  // where it cannot the polygon is taken as it is
-    Geometry parts(gdal::OGR_G_MakeValid(polygon));
-    return parts && gdal::OGR_G_GetDimension(parts.get()) == 2 ? std::move(parts) : nullptr;
   }
 
   void add_area(OGRGeometryH polygon, std::vector<PlanArea>& areas, double& lowest_z) {
@@ -376,10 +353,9 @@ class FootprintReader {
 
   Point2 on_map(double x, double y) const {
     const Vec3 place = to_map_ ? (*to_map_)(x, y, 0) : Vec3{x * map_unit_m(), y * map_unit_m(), 0};
-    if (to_map_ && !is_usable(place))
-      fail(fmt::format("has the corner {:g}, {:g}", x, y), "it cannot be projected");
-    if (!is_usable(place)) fail("lies beyond all coordinates on Earth", "", "is unit_m right?");
-    return {place.x, place.y};
+    if (is_usable(place)) return {place.x, place.y};
+    if (to_map_) fail(fmt::format("has the corner {:g}, {:g}", x, y), "it cannot be projected");
+    fail("lies beyond all coordinates on Earth", "", "is unit_m right?");
   }
 
   double foot_m(OGRFeatureH feature, const std::vector<PlanArea>& areas, double lowest_z,
@@ -431,6 +407,7 @@ class FootprintReader {
   GdalDataset dataset_;
   OGRLayerH layer_ = nullptr;
   bool is_in_degrees_ = false;
+  std::optional<OGREnvelope> extent_;                       ///< once it is asked for
   int height_ = -1, storeys_ = -1, base_ = -1, name_ = -1;  ///< columns
   std::optional<MapFromDegrees> to_map_;                    ///< none: on the map already
   std::optional<Raster> terrain_;

@@ -212,30 +212,31 @@ TEST(SiteOnMap, MapsThatShearAreWarnedOf) {
   EXPECT_TRUE(says(on_map("crs: \"EPSG:3035\"", 5520000, 1740000).warnings, "lengths on the map"));
 }
 
+/// Site of a house of GeoJSON that names no system.
+Site site_of_plan(const std::string& ring, const std::string& crs) {
+  write_text("plan.geojson",
+             R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": )"
+             R"({"height": 9}, "geometry": {"type": "Polygon", "coordinates": [[)" +
+                 ring + "]]}}]}");
+  return build_scene(study_of(crs + "timezone: Europe/Berlin", "days: [2024-06-21]",
+                              "files: [plan.geojson]"))
+      .site;
+}
+
 TEST(SiteOnMap, DegreesGoOntoTheMapOfTheStudy) {
   // Passau lies in the zone beside the one that Bavaria uses.
-  write_text("plan.geojson",
-             R"({"type": "FeatureCollection", "features": [{"type": "Feature", )"
-             R"("properties": {"height": 9}, "geometry": {"type": "Polygon", "coordinates": )"
-             R"([[[13.46, 48.57], [13.461, 48.57], [13.461, 48.571], [13.46, 48.57]]]}}]})");
   for (const char* crs : {"", "crs: \"EPSG:25832\", ", "crs: \"EPSG:25833+7837\", "}) {
-    const BuiltScene built = build_scene(study_of(crs + std::string("timezone: Europe/Berlin"),
-                                                  "days: [2024-06-21]", "files: [plan.geojson]"));
-    EXPECT_NEAR(built.site.latitude_deg, 48.5705, 1e-4) << crs;
-    EXPECT_NEAR(built.site.longitude_deg, 13.4605, 1e-4) << crs;
+    const Site site =
+        site_of_plan("[13.46, 48.57], [13.461, 48.57], [13.461, 48.571], [13.46, 48.57]", crs);
+    EXPECT_NEAR(site.latitude_deg, 48.5705, 1e-4) << crs;
+    EXPECT_NEAR(site.longitude_deg, 13.4605, 1e-4) << crs;
   }
 }
 
 TEST(SiteOnMap, NumbersThatAreNoDegreesAreMetresOfTheStudysMap) {
-  write_text(
-      "plan.geojson",
-      R"({"type": "FeatureCollection", "features": [{"type": "Feature", )"
-      R"("properties": {"height": 9}, "geometry": {"type": "Polygon", "coordinates": )"
-      R"([[[391000, 5820000], [391009, 5820000], [391009, 5820009], [391000, 5820000]]]}}]})");
   const auto site = [](const std::string& crs) {
-    return build_scene(study_of(crs + "timezone: Europe/Berlin", "days: [2024-06-21]",
-                                "files: [plan.geojson]"))
-        .site;
+    return site_of_plan(
+        "[391000, 5820000], [391009, 5820000], [391009, 5820009], [391000, 5820000]", crs);
   };
   EXPECT_NEAR(site("crs: \"EPSG:25833\", ").latitude_deg, 52.52, 0.01);
   EXPECT_TRUE(says(test::refusal_of([&] { site(""); }), "metres of a map, site.crs names it"));
