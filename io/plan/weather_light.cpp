@@ -216,11 +216,43 @@ std::vector<DatedWeather> StudyWeather::without_gaps(std::vector<DatedWeather> u
     warnings_.push_back(fmt::format("weather: {} of {} records {}", records, used.size(),
                                     completed_words(has, study_.light.decomposition)));
   const FilledWeather gaps = fill_missing(used, source_, Missing::refuse);
-  if (gaps.records == 0) return used;
+  if (const auto dark = dark_gaps(used); dark.size() == gaps.records) {
+    complete_dark(dark, used);
+    return used;
+  }
   say_filled(gaps);
   auto all = dated_;  // neighbours may lie outside of the period
   complete(all);
-  return used_by(path, fill_missing(std::move(all), source_, study_.light.missing).weather);
+  // Nights count where it is asked how long a gap is.
+  const auto dark = dark_gaps(all);
+  auto filled = fill_missing(std::move(all), source_, study_.light.missing).weather;
+  for (const std::size_t i : dark) filled[i].values = dated_[i].values;
+  complete_dark(dark, filled);
+  return used_by(path, filled);
+}
+
+std::vector<std::size_t> StudyWeather::dark_gaps(const std::vector<DatedWeather>& weather) const {
+  std::vector<std::size_t> places;
+  std::vector<DatedWeather> lacking;
+  for (std::size_t i = 0; i < weather.size(); ++i) {
+    if (!is_incomplete(weather[i].values, source_)) continue;
+    places.push_back(i);
+    lacking.push_back(weather[i]);
+  }
+  if (lacking.empty()) return {};
+  const SunPath path =
+      sun_path(steps_of(lacking), site_, study_.sun.refraction, study_.sun.ut1_utc);
+  std::vector<std::size_t> dark;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (path[k].up_s <= 0) dark.push_back(places[k]);
+  return dark;
+}
+
+void StudyWeather::complete_dark(const std::vector<std::size_t>& records,
+                                 std::vector<DatedWeather>& weather) const {
+  for (const std::size_t i : records)
+    for (const WeatherQuantity quantity : needed(source_))
+      weather[i].values.*quantity = (weather[i].values.*quantity).value_or(0);
 }
 
 std::map<WeatherSource, std::size_t> StudyWeather::complete(

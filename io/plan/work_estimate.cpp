@@ -86,9 +86,11 @@ double refinement_rays(const VariantPlan& plan, double patches, double lit) {
           luminaires_seen * static_cast<double>(plan.built.scene.luminaires.all.size()));
 }
 
-/// Of rays to the sun, cast by panes and the like. Sums are of one core.
-double mirror_seconds(double patches, double suns, double samples) {
-  return patches * mirrored_share * suns * samples * s_per_mirror_ray;
+/// Of the sun in panes and the like. Sums are of one core.
+double mirror_seconds(const VariantPlan& plan, double patches, double suns, double samples) {
+  const bool is_disk = plan.study.sun.disk == SunDisk::finite;
+  return patches * mirrored_share * suns *
+         (is_disk ? samples * s_per_mirror_ray : s_per_mirrored_share);
 }
 
 /// Shares of patches that see the suns, and rays.
@@ -207,7 +209,7 @@ WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
                   facing_share * counts.suns * counts.direct_samples * asked_by_rays(plan, patches),
                   facing_share * counts.suns * counts.direct_samples * to_sky) /
           threads,
-      mirror_seconds(n, counts.suns, counts.direct_samples) / threads,
+      mirror_seconds(plan, n, counts.suns, counts.direct_samples) / threads,
       // A block that is not full takes as long.
       band_factor(plan) * solution_seconds(n, lines * plan.study.solver.bounces, block_width) /
           threads};
@@ -383,7 +385,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
                 luminaire_rays * s_per_luminaire_ray;
   const double sent_on =
       shining / std::max(suns, 1.0) * static_cast<double>(plan.light.suns_of_mirrors());
-  core.mirror = mirrors ? mirror_seconds(n, sent_on, counts.direct_samples) : 0;
+  core.mirror = mirrors ? mirror_seconds(plan, n, sent_on, counts.direct_samples) : 0;
   if (by_matrix)
     core.solve += seasons * n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved);
   if (s.transport != Transport::shoot)

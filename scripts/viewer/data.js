@@ -67,6 +67,15 @@ function nameApart(results) {
   results.forEach((result, n) => { result.name = `${result.label} (${differs ? result[differs] : n + 1})`; });
 }
 
+/** All results in the frame of the first: each has its own local origin, near the middle of its scene. */
+function ofOneFrame(results) {
+  const { origin } = results[0];
+  for (const result of results.slice(1)) {
+    result.geometry.centre = result.geometry.centre.map((x, axis) => x + (result.origin[axis] - origin[axis]));
+    result.origin = origin;
+  }
+}
+
 /** One result: names as in its file, arrays unpacked. */
 class Result {
   static async read(about, halves) {
@@ -279,6 +288,7 @@ export async function readPage() {
   const halves = halfValues();
   const results = [];
   for (const one of about.results) results.push(await Result.read(one, halves));
+  ofOneFrame(results);
   nameApart(results);
   return { results, noValue: about.no_value, palettes: { false: about.false, grey: about.grey, difference: differencePalette(), surfaces: about.surfaces, materials: about.materials } };
 }

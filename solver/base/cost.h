@@ -44,8 +44,9 @@ inline constexpr double s_per_circumsolar_ray = 1.0e-7;
 inline constexpr double share_at_edges = 0.15, share_behind_screens = 0.1;
 inline constexpr double s_per_luminaire_ray = 1.0e-7;
 inline constexpr double luminaires_seen = 0.5;  ///< of a patch: before it, and sending towards it
-inline constexpr double s_per_mirror_ray = 1.3e-7;
 inline constexpr double mirrored_share = 0.11;  ///< of them again, where there are mirrors
+inline constexpr double s_per_mirrored_share = 1.4e-6;
+inline constexpr double s_per_mirror_ray = 1.3e-7;  ///< in place of that, of a sun with a disk
 
 // The light's way on.
 inline constexpr double s_per_link_sun = 2.0e-10;    ///< one link of one sun and one bounce

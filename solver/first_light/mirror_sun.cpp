@@ -85,11 +85,59 @@ int raster_size(std::size_t beams) {
   return size;
 }
 
+/// What is known of light that is reflected once, of receivers and suns, [N][block], or of none.
+class Known {
+ public:
+  explicit Known(Columns light) : light_(std::move(light)) {}
+  bool of_any() const { return !light_.empty(); }
+  /// Irradiance per DNI; below 0: rays must tell.
+  float light(std::size_t receiver, std::size_t k) const {
+    return of_any() ? light_[receiver * block_width + k] : MirroredShares::by_rays;
+  }
+  /// Receivers of which rays must tell, a bit each.
+  std::uint64_t by_rays(const Cluster& cluster, std::size_t k) const {
+    std::uint64_t bits = 0;
+    for (std::size_t i = cluster.begin; i < cluster.end; ++i)
+      bits |= std::uint64_t{light(i, k) < 0} << (i - cluster.begin);
+    return bits;
+  }
+  /// Suns of which rays must tell some receiver, a bit each.
+  std::uint32_t suns_by_rays() const {
+    static_assert(block_width <= 32);
+    if (!of_any()) return ~std::uint32_t{0};
+    std::uint32_t bits = 0;
+    for (std::size_t at = 0; at < light_.size(); ++at)
+      bits |= std::uint32_t{light_[at] < 0} << at % block_width;
+    return bits;
+  }
+  /// Adds it to what receivers have.
+  void add_to(const RaySink& into, std::span<const IntervalLight> block) const {
+    constexpr std::size_t receivers_per_chunk = 1024;
+    parallel_chunks(light_.size() / block_width, receivers_per_chunk,
+                    [&](std::size_t begin, std::size_t end) {
+                      for (std::size_t i = begin; i < end; ++i) {
+                        std::array<double, block_width> E{};
+                        bool any = false;
+                        for (std::size_t k = 0; k < block.size(); ++k) {
+                          if (!(light(i, k) > 0)) continue;
+                          E[k] = block[k].dni * static_cast<double>(light(i, k));
+                          any = true;
+                        }
+                        if (any) into.add_alike(i, E);
+                      }
+                    });
+  }
+
+ private:
+  Columns light_;
+};
+
 /// Suns whose beams are looked at together: threads wait for each other once for all of them.
 class RastersOfSuns {
  public:
-  /// Of suns from `first` on, as many as have room.
-  RastersOfSuns(std::span<const SunBeams> beams, std::size_t first) : first_(first) {
+  /// Of suns from `first` on, as many as have room; of beams that rays must ask for.
+  RastersOfSuns(std::span<const SunBeams> beams, std::size_t first, std::uint32_t suns_by_rays)
+      : first_(first) {
     constexpr std::size_t cells_at_a_time = std::size_t{1} << 21;
     struct Beam {
       std::size_t sun, beam;
@@ -101,7 +149,9 @@ class RastersOfSuns {
       const int size = raster_size(of.size());
       cells += of.size() * static_cast<std::size_t>(size * size);
       if (cells > cells_at_a_time && !all.empty()) break;
-      for (std::size_t b = 0; b < of.size(); ++b) all.push_back({of_sun_.size(), b, size});
+      for (std::size_t b = 0; b < of.size(); ++b)
+        if (of[b].before >= 0 || (suns_by_rays >> end() & 1u) != 0)
+          all.push_back({of_sun_.size(), b, size});
       of_sun_.emplace_back(of.size());
     }
     parallel_for(all.size(), [&](std::size_t i) {
@@ -140,17 +190,18 @@ PacketDirections seen(const SunBeam& beam, const PacketDirections& sun) {
 
 }  // namespace
 
-MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups)
-    : caster_(caster), groups_(groups) {}
+MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups, const LitShares& shares)
+    : caster_(caster), groups_(groups), shares_(shares, groups) {}
 
 /// The mirrored sun that the receivers of one cluster get, from one sun after the other.
 class MirrorSun::PatchWork {
  public:
   PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const Cluster& cluster,
-            const RaySink& into)
+            const Known& known, const RaySink& into)
       : m_(mirror),
         sampler_(sampler),
         cluster_(cluster),
+        known_(known),
         into_(into),
         of_realization_(into.realizations()) {}
 
@@ -159,11 +210,13 @@ class MirrorSun::PatchWork {
                std::span<const std::optional<BeamRaster>> rasters) {
     near_.clear();
     std::uint64_t any = 0;
+    const std::uint64_t all = ~std::uint64_t{0}, by_rays = known_.by_rays(cluster_, k);
     for (std::size_t b = 0; b < rasters.size(); ++b) {
-      if (!rasters[b]->may_meet(cluster_.corners)) continue;
+      const std::uint64_t asked = beams[b].before < 0 ? by_rays : all;
+      if (!rasters[b] || asked == 0 || !rasters[b]->may_meet(cluster_.corners)) continue;
       if (!columns_) columns_.emplace(sampler_, cluster_);
       const std::uint64_t which =
-          rasters[b]->may_meet_each(columns_->corners, facing(*columns_, beams[b].image));
+          rasters[b]->may_meet_each(columns_->corners, asked & facing(*columns_, beams[b].image));
       if (which == 0) continue;
       near_.push_back({b, which});
       any |= which;
@@ -248,6 +301,7 @@ class MirrorSun::PatchWork {
   const MirrorSun& m_;
   const SunSampler& sampler_;
   const Cluster& cluster_;
+  const Known& known_;
   const RaySink& into_;
   std::optional<ClusterColumns> columns_;  ///< once a beam comes near
   const IntervalLight* sun_ = nullptr;
@@ -263,19 +317,34 @@ class MirrorSun::PatchWork {
   SunSampler::Seeds seeds_;
 };
 
+/// Of patches, by suns that are points; nothing where rays tell all.
+Columns MirrorSun::known_of(std::span<const IntervalLight> block,
+                            std::span<const SunBeams> beams) const {
+  const auto is_disk = [](const IntervalLight& sun) { return sun.disk_half_angle > 0; };
+  if (std::any_of(block.begin(), block.end(), is_disk)) return {};
+  std::vector<std::vector<MirroredSun>> by_mirrors(block.size());
+  for (std::size_t k = 0; k < block.size(); ++k)
+    for (std::size_t b = 0; b < beams[k].size() && beams[k][b].before < 0; ++b)
+      by_mirrors[k].push_back({beams[k][b].group, beams[k][b].triangles, beams[k][b].image});
+  return shares_.of(block, by_mirrors);
+}
+
 std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
                                    std::span<const IntervalLight> block,
                                    std::span<const SunBeams> beams, const RaySink& into) const {
   const bool any = std::any_of(beams.begin(), beams.end(),
                                [](const SunBeams& of_sun) { return of_sun.size() > 0; });
   if (!any) return 0;
+  const Known known(receivers.are_points() ? Columns() : known_of(block, beams));
+  known.add_to(into, block);
+  const std::uint32_t suns_by_rays = known.suns_by_rays();
   const auto clusters = clusters_of(receivers);
   std::uint64_t rays = 0;
   for (std::size_t first = 0; first < block.size();) {
-    const RastersOfSuns rasters(beams.first(block.size()), first);
+    const RastersOfSuns rasters(beams.first(block.size()), first, suns_by_rays);
     // A thread takes receivers with all suns, whose light is added up in their order.
     rays += ordered_sum(clusters.size(), 1, std::uint64_t{0}, [&](std::size_t c, std::size_t) {
-      PatchWork work(*this, receivers, clusters[c], into);
+      PatchWork work(*this, receivers, clusters[c], known, into);
       for (std::size_t i = 0; i < rasters.suns(); ++i) {
         const std::size_t k = first + i;
         work.receive(block[k], k, beams[k], rasters.of_sun(i));

@@ -91,13 +91,14 @@ std::vector<SunBeam> SunBeams::first_level(const IntervalLight& sun,
     const Vec3 n = (*groups_)[g].normal;
     const double reflected = strongest(g);
     if (reflected <= 0) continue;
-    SunBeam beam{g, -1, 1, followed_by_image({}, n), {}, reflected, {}, {}};
+    SunBeam beam{g, -1, 1, followed_by_image({}, n), {}, reflected, {}, {}, {}};
     beam.image = beam.image_of(sun.direction);
     for (const auto t : (*groups_)[g].triangles) {
       if (!is_lit(t)) continue;
       const Mesh& mesh = groups_->scene().mesh;
       const auto i = static_cast<std::size_t>(t);
       beam.section.push_back({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)});
+      beam.triangles.push_back(t);
     }
     level.push_back(std::move(beam));
   }
@@ -129,6 +130,7 @@ std::vector<SunBeam> SunBeams::next_level(std::size_t begin) {
                        image(beam.image, n),
                        strongest,
                        std::move(lit),
+                       {},
                        {}});
       if (beams_.size() + level.size() > static_cast<std::size_t>(rules_.most_beams)) return level;
     }

@@ -45,6 +45,8 @@ struct SunBeam {
   Vec3 image;                          ///< of the sun's centre
   double strongest;                    ///< largest product of reflectances
   std::vector<ConvexPolygon> section;  ///< parts of mirrors
+  /// Of the first reflection: mirrors that may see the sun.
+  std::vector<std::int32_t> triangles;
   std::vector<std::pair<std::size_t, std::int32_t>> next;  ///< group, beam
 };
 

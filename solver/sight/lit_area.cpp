@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "solver/sight/view_cut.h"
+
 namespace sunload {
 
 namespace {
@@ -21,63 +23,10 @@ constexpr double sparse_share = 0.25;
 /// Of the polygon's area: less is rounding.
 constexpr double least_share = 1e-12;
 
-using Distances = std::array<double, ViewPolygon::most>;
-
-enum class Side { within, beyond, both };
-
-/// On which side of a line the corners lie, and how far beyond it.
-Side measure(const ViewPolygon& polygon, const ViewLine& line, Distances& beyond) {
-  bool any_within = false, any_beyond = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    beyond[i] = line.beyond(polygon[i]);
-    any_within = any_within || beyond[i] < 0;
-    any_beyond = any_beyond || beyond[i] > 0;
-  }
-  return any_beyond ? any_within ? Side::both : Side::beyond : Side::within;
-}
-
-/// The two parts of a polygon; false: one of them has too many corners.
-bool cut(const ViewPolygon& polygon, const Distances& beyond, ViewPolygon& within,
-         ViewPolygon& outside) {
-  within.clear();
-  outside.clear();
-  std::size_t p = polygon.size() - 1;
-  for (std::size_t q = 0; q < polygon.size(); p = q++) {
-    if (std::max(within.size(), outside.size()) + 2 > ViewPolygon::most) return false;
-    const ViewCorner a = polygon[p], b = polygon[q];
-    if ((beyond[p] > 0) != (beyond[q] > 0)) {
-      const double t = beyond[p] / (beyond[p] - beyond[q]);
-      const ViewCorner at{a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t};
-      within.add(at);
-      outside.add(at);
-    }
-    (beyond[q] > 0 ? outside : within).add(b);
-  }
-  return true;
-}
-
-ViewLine edge(const ViewPolygon& polygon, std::size_t k) {
-  return line_through(polygon[k], polygon[k + 1 < polygon.size() ? k + 1 : 0]);
-}
-
 /// The area of what of a polygon lies in a shade; below 0: it has too many corners.
 double area_within(ViewPolygon polygon, const ViewPolygon& shade) {
-  Distances beyond;
-  ViewPolygon within, outside;
-  for (std::size_t k = 0; k < shade.size(); ++k) {
-    const Side side = measure(polygon, edge(shade, k), beyond);
-    if (side == Side::beyond) return 0;
-    if (side == Side::within) continue;
-    if (!cut(polygon, beyond, within, outside)) return -1;
-    polygon = within;
-  }
-  return polygon.area();
-}
-
-ViewBox box_of(const ViewPolygon& polygon) {
-  ViewBox box;
-  for (std::size_t i = 0; i < polygon.size(); ++i) box.include(polygon[i]);
-  return box;
+  if (!keep_within(polygon, shade)) return -1;
+  return polygon.has_area() ? polygon.area() : 0;
 }
 
 /// Both sides of a line across the middle of the longer extent; false: one has too many corners.
@@ -87,8 +36,17 @@ bool halve(const ViewPolygon& polygon, ViewPolygon& first, ViewPolygon& second) 
   const bool is_wide = box.x1 - box.x0 > box.y1 - box.y0;
   const ViewLine line =
       is_wide ? line_through({x, box.y0}, {x, box.y1}) : line_through({box.x0, y}, {box.x1, y});
-  Distances beyond;
-  return measure(polygon, line, beyond) == Side::both && cut(polygon, beyond, first, second);
+  ViewDistances beyond;
+  return measure(polygon, line, beyond) == ViewSide::both && cut(polygon, beyond, first, second);
+}
+
+/// Shades that may reach into a polygon.
+void keep_near(const ViewPolygon& polygon, std::span<const ViewPolygon* const> shades,
+               std::vector<const ViewPolygon*>& near) {
+  const ViewBox box = box_of(polygon);
+  near.clear();
+  for (const ViewPolygon* shade : shades)
+    if (!box.is_apart_from(box_of(*shade), 0, 0)) near.push_back(shade);
 }
 
 /// Whether they are few and thin.
@@ -113,17 +71,41 @@ std::optional<double> LitArea::share(const ViewPolygon& polygon,
   return share < least_share ? 0 : share > 1 - least_share ? 1 : share;
 }
 
+bool LitArea::parts(const ViewPolygon& polygon, Shades shades, std::vector<ViewPolygon>& lit) {
+  lit.clear();
+  negligible_ = least_share * polygon.area();
+  return add_parts(polygon, shades, 0, lit);
+}
+
+bool LitArea::add_parts(const ViewPolygon& polygon, Shades shades, std::size_t halvings,
+                        std::vector<ViewPolygon>& lit) {
+  if (shades.size() <= most_together) {
+    left_.assign(1, polygon);
+    const bool is_done = std::all_of(
+        shades.begin(), shades.end(),
+        [this](const ViewPolygon* shade) { return left_.empty() || take_away(*shade); });
+    if (is_done) {
+      lit.insert(lit.end(), left_.begin(), left_.end());
+      return true;
+    }
+  }
+  ViewPolygon first, second;
+  if (halvings == most_halvings || !halve(polygon, first, second)) return false;
+  for (const ViewPolygon& half : {first, second}) {
+    keep_near(half, shades, of_half_[halvings]);
+    if (!add_parts(half, of_half_[halvings], halvings + 1, lit)) return false;
+  }
+  return true;
+}
+
 std::optional<double> LitArea::lit_of_halves(const ViewPolygon& polygon, Shades shades,
                                              std::size_t halvings) {
   ViewPolygon first, second;
   if (halvings == most_halvings || !halve(polygon, first, second)) return {};
   double sum = 0;
   for (const ViewPolygon& half : {first, second}) {
-    const ViewBox box = box_of(half);
     auto& own = of_half_[halvings];
-    own.clear();
-    for (const ViewPolygon* shade : shades)
-      if (!box.is_apart_from(box_of(*shade), 0, 0)) own.push_back(shade);
+    keep_near(half, shades, own);
     auto lit = lit_together(half, own);
     if (!lit) lit = lit_of_halves(half, own, halvings + 1);
     if (!lit) return {};
@@ -159,11 +141,11 @@ bool LitArea::take_away(const ViewPolygon& shade) {
 bool LitArea::split(const ViewPolygon& piece, const ViewPolygon& shade) {
   const std::size_t before = next_.size();
   ViewPolygon rest = piece, within, outside;
-  Distances beyond;
+  ViewDistances beyond;
   for (std::size_t k = 0; k < shade.size(); ++k) {
-    const Side side = measure(rest, edge(shade, k), beyond);
-    if (side == Side::within) continue;
-    if (side == Side::beyond) {
+    const ViewSide side = measure(rest, edge(shade, k), beyond);
+    if (side == ViewSide::within) continue;
+    if (side == ViewSide::beyond) {
       // All of the piece is outside: what has been cut off of it belongs to it.
       next_.resize(before);
       next_.push_back(piece);

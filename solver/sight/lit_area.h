@@ -23,6 +23,10 @@ class LitArea {
   /// halved, and the halves again; nothing where that does not help.
   std::optional<double> share(const ViewPolygon& polygon,
                               std::span<const ViewPolygon* const> shades);
+  /// Convex polygons that make up that part of it, as exact; false where they are too many, the
+  /// polygon halved and its halves again.
+  bool parts(const ViewPolygon& polygon, std::span<const ViewPolygon* const> shades,
+             std::vector<ViewPolygon>& lit);
 
  private:
   using Shades = std::span<const ViewPolygon* const>;
@@ -31,6 +35,8 @@ class LitArea {
   /// The same, half by half; `halvings` were made before.
   std::optional<double> lit_of_halves(const ViewPolygon& polygon, Shades shades,
                                       std::size_t halvings);
+  bool add_parts(const ViewPolygon& polygon, Shades shades, std::size_t halvings,
+                 std::vector<ViewPolygon>& lit);
   bool take_away(const ViewPolygon& shade);
   bool split(const ViewPolygon& piece, const ViewPolygon& shade);
 

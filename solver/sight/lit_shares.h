@@ -50,6 +50,7 @@ class LitShares {
     Vec3 normal;
     double plane_offset;  ///< normal · any point of the plane
   };
+  const std::vector<Group>& groups() const { return groups_; }
   std::span<const std::uint32_t> patches_of(const Group& group) const {
     return std::span(patch_).subspan(group.first, group.count);
   }

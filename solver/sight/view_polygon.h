@@ -31,6 +31,12 @@ class ViewPolygon {
   const ViewCorner& operator[](std::size_t i) const { return corner_[i]; }
   void clear() { size_ = 0; }
   void add(ViewCorner corner) { corner_[size_++] = corner; }
+  void drop_last() { --size_; }
+  ViewPolygon reversed() const {
+    ViewPolygon other;
+    for (std::size_t k = size_; k > 0; --k) other.add(corner_[k - 1]);
+    return other;
+  }
   double area() const {
     double twice = 0;
     const ViewCorner o = corner_[0];

@@ -113,7 +113,7 @@ TracedScene::TracedScene(const Scene& whole, std::shared_ptr<const Hierarchy> fr
       lit_shares(whole, *mesh, caster.offset_m()),
       share_grid(lit_shares),
       mirrors(whole),
-      mirror_sun(caster, mirrors),
+      mirror_sun(caster, mirrors, lit_shares),
       mirror_chains(*mesh, caster, patches.sampler, mirrors,
                     {.mirror_depth = of_study.mirror_depth, .negligible = of_study.unshot}),
       glossy_sun(whole, *mesh, caster, patches.sampler, optics, line_rules(of_study)),

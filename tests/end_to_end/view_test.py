@@ -196,6 +196,59 @@ def test_match(probe, folder, sunload):
         assert seen["unmatchedShare"] == 0 and abs(seen["matchedKwh"] - whole) < 1e-5 * whole, (seen, whole)
 
 
+TWO_HOUSES = """v 0 0 0
+v 8 0 0
+v 8 8 0
+v 0 8 0
+v 0 0 6
+v 8 0 6
+v 8 8 6
+v 0 8 6
+v 28 0 0
+v 36 0 0
+v 36 8 0
+v 28 8 0
+v 28 0 6
+v 36 0 6
+v 36 8 6
+v 28 8 6
+o west
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+o east
+f 9 12 11 10
+f 13 14 15 16
+f 9 10 14 13
+f 10 11 15 14
+f 11 12 16 15
+f 12 9 13 16
+"""
+
+
+def test_frames(probe, folder, sunload):
+    """Of a place on a map without one of its houses: the frame's origin is elsewhere, what is left is not."""
+    study = STUDY.replace("name: square", "name: town").replace("fine, mesh: {max_edge_m: 1.8}", "east, scene: {edit: [{object: west, remove: true}]}")
+    study = study.replace("files: [square.obj]", "files: [{file: town.obj, position_m: [345000, 6297000, 0]}]")
+    study = "".join(line for line in study.splitlines(True) if not line.startswith(("sensors", "  materials")) and "bright" not in line)
+    for name, text in (("town.obj", TWO_HOUSES), ("town.yaml", study)):
+        with open(os.path.join(folder, name), "w") as file:
+            file.write(text)
+    run([sunload, "run", "town.yaml"], cwd=folder)
+    both, east = (os.path.join(folder, f"results/town/{name}.h5") for name in ("baseline", "east"))
+    page = os.path.join(folder, "town.html")
+    run([sunload, "view", east, both, "-o", page])
+    seen = json.loads(run([*probe, page, folder, "match"]))
+    with h5py.File(east) as first, h5py.File(both) as second:
+        assert (first.attrs["origin"] != second.attrs["origin"]).any()
+        of_east = second["object_name"].asstr()[...][second["patch_object"][...]] == "east"
+        whole = (second["light_load"][...] * second["patch_area"][...])[of_east].sum()
+    assert seen["unmatchedShare"] == 0 and abs(seen["matchedKwh"] - whole) < 1e-5 * whole, (seen, whole)
+
+
 def test_refusals(sunload, folder, path, probe):
     page = os.path.join(folder, "no.html")
     for words, code, says in ((["missing.h5", "-o", page], 2, "missing.h5"), ([path, path, path, "-o", page], 2, "two"),
@@ -228,6 +281,7 @@ def test(sunload, source, packages, folder):
     seen = json.loads(run([*probe, page, folder]))
     test_page(seen, Pictures(folder), path, other)
     test_match(probe, folder, sunload)
+    test_frames(probe, folder, sunload)
     test_refusals(sunload, folder, path, probe)
     print(f"{len(seen['patches'])} patches have the colours of their values, {len(seen['clicks'])} clicks told them; "
           f"{seen['framesPerSecond']:.0f} frames/s")

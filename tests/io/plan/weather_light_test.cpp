@@ -232,6 +232,40 @@ TEST(WeatherLight, RowsThatAreMissingWithinADayAreMissingValues) {
   EXPECT_EQ(refused(with("days: [2026-06-21]", "")), "");
 }
 
+/// Two days in June with light from 4 to 20 o'clock, whose sun rises at 03:53 and sets at 20:14,
+/// but for values of the hours that begin in [from, to) of the first.
+std::string csv_with_gap(int from, int to) {
+  std::string text = roof + "time,dni_w_m2,dhi_w_m2\n";
+  for (int h = 0; h < 48; ++h) {
+    const char* values = h % 24 >= 4 && h % 24 < 20 ? "400,90" : "0,0";
+    text += fmt::format("2026-06-{:02}T{:02}:00,{}\n", 20 + h / 24, h % 24,
+                        h >= from && h < to ? "," : values);
+  }
+  return text;
+}
+
+TEST(WeatherLight, GapsAtNightAreDark) {
+  const auto light_of = [](int from, int to, const std::string& missing) {
+    write_text("night.csv", csv_with_gap(from, to));
+    return series_of(weather_study("timezone: UTC", "year_of: weather",
+                                   "weather: night.csv, stamp: start" + missing));
+  };
+  const auto evening = light_of(19, 22, ", missing: interpolate");  // across sunset
+  EXPECT_TRUE(tells(evening.notes, "3 of 48 records lack a value"));
+  double by_day = 0;
+  for (const auto& interval : evening.intervals) {
+    EXPECT_TRUE(interval.when.up_s > 0 || interval.mean.dhi == 0);
+    by_day += interval.mean.dhi;
+  }
+  // What lies in the light has something of the hour before.
+  EXPECT_GT(by_day, 31 * 90);
+  EXPECT_LT(by_day, 33 * 90);
+  // Loggers may write nothing in the dark.
+  const auto night = light_of(23, 27, "");
+  EXPECT_TRUE(night.notes.empty());
+  EXPECT_EQ(night.intervals.size(), 48u);
+}
+
 TEST(WeatherLight, ValuesThatAreMissingBetweenTheDaysOfThePeriodAreNoOnes) {
   std::string text = roof + "time,dni_w_m2,dhi_w_m2\n";
   for (int h = 0; h < 96; ++h)
