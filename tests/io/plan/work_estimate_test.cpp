@@ -45,7 +45,7 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
         fmt::format("| {0} · suns · direct_samples · (sensors, {1} of mirrors' patches; {1} of all "
                     "by a disk, {2} by screens) | {3} |",
                     facing_share, share_at_edges, share_behind_screens, micro_s(s_per_direct_ray)),
-        fmt::format("| {} of patches · suns (a street with glass) | {} |", mirrored_share,
+        fmt::format("| {} of patches · suns (street with glass) | {} |", mirrored_share,
                     micro_s(s_per_mirrored_share)),
         fmt::format("| {} of patches · suns · direct_samples | {} |", mirrored_share,
                     micro_s(s_per_mirror_ray)),
