@@ -232,19 +232,12 @@ std::vector<DatedWeather> StudyWeather::without_gaps(std::vector<DatedWeather> u
 }
 
 std::vector<std::size_t> StudyWeather::dark_gaps(const std::vector<DatedWeather>& weather) const {
-  std::vector<std::size_t> places;
-  std::vector<DatedWeather> lacking;
-  for (std::size_t i = 0; i < weather.size(); ++i) {
-    if (!is_incomplete(weather[i].values, source_)) continue;
-    places.push_back(i);
-    lacking.push_back(weather[i]);
-  }
-  if (lacking.empty()) return {};
-  const SunPath path =
-      sun_path(steps_of(lacking), site_, study_.sun.refraction, study_.sun.ut1_utc);
-  std::vector<std::size_t> dark;
-  for (std::size_t k = 0; k < places.size(); ++k)
-    if (path[k].up_s <= 0) dark.push_back(places[k]);
+  std::vector<std::size_t> lacking, dark;
+  for (std::size_t i = 0; i < weather.size(); ++i)
+    if (is_incomplete(weather[i].values, source_)) lacking.push_back(i);
+  const SunPath path = path_of(weather, lacking);
+  for (std::size_t k = 0; k < lacking.size(); ++k)
+    if (path[k].up_s <= 0) dark.push_back(lacking[k]);
   return dark;
 }
 
@@ -258,24 +251,26 @@ void StudyWeather::complete_dark(const std::vector<std::size_t>& records,
 std::map<WeatherSource, std::size_t> StudyWeather::complete(
     std::vector<DatedWeather>& weather) const {
   std::vector<std::size_t> places;
-  std::vector<DatedWeather> lacking;
-  for (std::size_t i = 0; i < weather.size(); ++i) {
-    const WeatherValues& values = weather[i].values;
-    if (!is_incomplete(values, source_) || source_of(values) == WeatherSource::none) continue;
-    places.push_back(i);
-    lacking.push_back(weather[i]);
-  }
-  if (lacking.empty()) return {};
-  const SunPath path =
-      sun_path(steps_of(lacking), site_, study_.sun.refraction, study_.sun.ut1_utc);
+  for (std::size_t i = 0; i < weather.size(); ++i)
+    if (is_incomplete(weather[i].values, source_) &&
+        source_of(weather[i].values) != WeatherSource::none)
+      places.push_back(i);
+  const SunPath path = path_of(weather, places);
   std::map<WeatherSource, std::size_t> records;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const WeatherValues& values = lacking[k].values;
+    WeatherValues& values = weather[places[k]].values;
     ++records[source_of(values)];
-    weather[places[k]].values =
-        completed(values, path[k], study_.light.decomposition, site_.elevation_m);
+    values = completed(values, path[k], study_.light.decomposition, site_.elevation_m);
   }
   return records;
+}
+
+SunPath StudyWeather::path_of(const std::vector<DatedWeather>& weather,
+                              const std::vector<std::size_t>& records) const {
+  if (records.empty()) return {};
+  std::vector<DatedWeather> these;
+  for (const std::size_t i : records) these.push_back(weather[i]);
+  return sun_path(steps_of(these), site_, study_.sun.refraction, study_.sun.ut1_utc);
 }
 
 void StudyWeather::expect_covered(const SunPath& path, const std::vector<std::size_t>& uncovered) {

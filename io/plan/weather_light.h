@@ -55,6 +55,9 @@ class StudyWeather {
   std::vector<DatedWeather> without_gaps(std::vector<DatedWeather> used, const SunPath& path);
   /// Records that lack something which follows from what else they have; how many, by that.
   std::map<WeatherSource, std::size_t> complete(std::vector<DatedWeather>& weather) const;
+  /// The sun of some records.
+  SunPath path_of(const std::vector<DatedWeather>& weather,
+                  const std::vector<std::size_t>& records) const;
   /// Records that lack values while the sun is down: loggers may write nothing then.
   std::vector<std::size_t> dark_gaps(const std::vector<DatedWeather>& weather) const;
   /// What they lack is 0.

@@ -86,9 +86,9 @@ int raster_size(std::size_t beams) {
 }
 
 /// What is known of light that is reflected once, of receivers and suns, [N][block], or of none.
-class Known {
+class OnceReflected {
  public:
-  explicit Known(Columns light) : light_(std::move(light)) {}
+  explicit OnceReflected(Columns light) : light_(std::move(light)) {}
   bool of_any() const { return !light_.empty(); }
   /// Irradiance per DNI; below 0: rays must tell.
   float light(std::size_t receiver, std::size_t k) const {
@@ -190,6 +190,14 @@ PacketDirections seen(const SunBeam& beam, const PacketDirections& sun) {
 
 }  // namespace
 
+std::vector<std::vector<MirroredSun>> once_reflected(std::span<const SunBeams> beams) {
+  std::vector<std::vector<MirroredSun>> all(beams.size());
+  for (std::size_t k = 0; k < beams.size(); ++k)
+    for (std::size_t b = 0; b < beams[k].size() && beams[k][b].before < 0; ++b)
+      all[k].push_back({beams[k][b].group, beams[k][b].triangles, beams[k][b].image});
+  return all;
+}
+
 MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups, const LitShares& shares)
     : caster_(caster), groups_(groups), shares_(shares, groups) {}
 
@@ -197,7 +205,7 @@ MirrorSun::MirrorSun(const RayCaster& caster, const MirrorGroups& groups, const 
 class MirrorSun::PatchWork {
  public:
   PatchWork(const MirrorSun& mirror, const SunSampler& sampler, const Cluster& cluster,
-            const Known& known, const RaySink& into)
+            const OnceReflected& known, const RaySink& into)
       : m_(mirror),
         sampler_(sampler),
         cluster_(cluster),
@@ -301,7 +309,7 @@ class MirrorSun::PatchWork {
   const MirrorSun& m_;
   const SunSampler& sampler_;
   const Cluster& cluster_;
-  const Known& known_;
+  const OnceReflected& known_;
   const RaySink& into_;
   std::optional<ClusterColumns> columns_;  ///< once a beam comes near
   const IntervalLight* sun_ = nullptr;
@@ -322,11 +330,7 @@ Columns MirrorSun::known_of(std::span<const IntervalLight> block,
                             std::span<const SunBeams> beams) const {
   const auto is_disk = [](const IntervalLight& sun) { return sun.disk_half_angle > 0; };
   if (std::any_of(block.begin(), block.end(), is_disk)) return {};
-  std::vector<std::vector<MirroredSun>> by_mirrors(block.size());
-  for (std::size_t k = 0; k < block.size(); ++k)
-    for (std::size_t b = 0; b < beams[k].size() && beams[k][b].before < 0; ++b)
-      by_mirrors[k].push_back({beams[k][b].group, beams[k][b].triangles, beams[k][b].image});
-  return shares_.of(block, by_mirrors);
+  return shares_.of(block, once_reflected(beams.first(block.size())));
 }
 
 std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
@@ -335,7 +339,7 @@ std::uint64_t MirrorSun::add_light(const SunSampler& receivers,
   const bool any = std::any_of(beams.begin(), beams.end(),
                                [](const SunBeams& of_sun) { return of_sun.size() > 0; });
   if (!any) return 0;
-  const Known known(receivers.are_points() ? Columns() : known_of(block, beams));
+  const OnceReflected known(receivers.are_points() ? Columns() : known_of(block, beams));
   known.add_to(into, block);
   const std::uint32_t suns_by_rays = known.suns_by_rays();
   const auto clusters = clusters_of(receivers);

@@ -21,6 +21,9 @@
 
 namespace sunload {
 
+/// Each sun by way of its first mirrors; points into `beams`.
+std::vector<std::vector<MirroredSun>> once_reflected(std::span<const SunBeams> beams);
+
 class MirrorSun {
  public:
   /// All arguments must outlive it.

@@ -15,10 +15,7 @@ constexpr double smallest_extent_m = 1e-9;
 }  // namespace
 
 BoxGrid::BoxGrid(std::vector<ViewBox> boxes) : boxes_(std::move(boxes)) {
-  for (const ViewBox& box : boxes_) {
-    all_.include({box.x0, box.y0});
-    all_.include({box.x1, box.y1});
-  }
+  for (const ViewBox& box : boxes_) all_.include_box(box);
   const double side = std::sqrt(static_cast<double>(boxes_.size()));
   across_ = static_cast<std::size_t>(std::clamp(side, 1.0, most_cells_across));
   const auto cells = static_cast<double>(across_);

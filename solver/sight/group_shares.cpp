@@ -270,7 +270,7 @@ const GroupShares::Shade& GroupShares::shade_at(std::uint32_t number, std::size_
       !outline(found_[number], before_[number], frames_[k], shade))
     shade.polygon.clear();
   shade.face = found_[number];
-  shade.area = shade.polygon.has_area() ? shade.polygon.area() : 0;
+  shade.area = shade.polygon.area();
   return shade;
 }
 
@@ -282,11 +282,7 @@ float GroupShares::share(const Seen& patch) {
       block_[facing_.front()].disk_half_angle > 0 ||
       std::any_of(kept_.begin(), kept_.end(), [](const Shade* shade) { return !shade->is_solid; });
   if (is_for_rays) return LitShares::by_rays;
-  // Polygons are taken away in an order, and so rounded, that no other sun has a part in: the
-  // largest first, which leaves least to cut.
-  std::sort(kept_.begin(), kept_.end(), [](const Shade* a, const Shade* b) {
-    return a->area > b->area || (a->area == b->area && a->face < b->face);
-  });
+  std::sort(kept_.begin(), kept_.end(), LargestFirst());
   cover_.clear();
   for (const Shade* shade : kept_) cover_.push_back(&shade->polygon);
   const auto lit = area_.share(patch.polygon, cover_);

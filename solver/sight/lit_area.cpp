@@ -25,8 +25,7 @@ constexpr double least_share = 1e-12;
 
 /// The area of what of a polygon lies in a shade; below 0: it has too many corners.
 double area_within(ViewPolygon polygon, const ViewPolygon& shade) {
-  if (!keep_within(polygon, shade)) return -1;
-  return polygon.has_area() ? polygon.area() : 0;
+  return keep_within(polygon, shade) ? polygon.area() : -1;
 }
 
 /// Both sides of a line across the middle of the longer extent; false: one has too many corners.

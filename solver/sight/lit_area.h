@@ -17,6 +17,15 @@
 
 namespace sunload {
 
+/// The order in which shades, polygons of faces, are taken away, and so rounded: one in which no
+/// other sun has a part. The largest first, which leaves least to cut.
+struct LargestFirst {
+  template <class Shade>
+  bool operator()(const Shade* a, const Shade* b) const {
+    return a->area > b->area || (a->area == b->area && a->face < b->face);
+  }
+};
+
 class LitArea {
  public:
   /// Share of its area, exact but for rounding. What many thin shades cut into too many pieces is

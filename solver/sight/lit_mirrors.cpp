@@ -29,11 +29,11 @@ class PlaneBeforeSun {
   void add(const MirrorFace& face, double reflectance, const MirrorShades& shades,
            std::vector<LitPart>& parts) {
     const ViewPolygon mirror = FlatPolygon(face.corners).seen(sun_);
-    if (!mirror.has_area() || mirror.area() <= 0) return;
+    if (mirror.area() <= 0) return;
     if (face.is_screen) return add(mirror, reflectance, false, parts);
     near_.clear();
     shades.visit(box_of(mirror), [&](const FaceOutline& shade) { near_.push_back(&shade); });
-    sort_largest_first(near_);
+    std::sort(near_.begin(), near_.end(), LargestFirst());
     covered_.clear();
     for (const auto other : face.covered_by)
       covered_.push_back(FlatPolygon(plane_.faces[other].corners).seen(sun_));
@@ -43,16 +43,11 @@ class PlaneBeforeSun {
     for (const FaceOutline* shade : near_)
       (shade->is_solid ? cover_ : screens_).push_back(&shade->polygon);
     if (!area_.parts(mirror, cover_, lit_)) return add(mirror, reflectance, false, parts);
-    for (const ViewPolygon& part : lit_) add(part, reflectance, !any_within(part, screens_), parts);
+    for (const ViewPolygon& part : lit_)
+      add(part, reflectance, !any_reaches_into(screens_, part), parts);
   }
 
  private:
-  static bool any_within(const ViewPolygon& part, std::span<const ViewPolygon* const> others) {
-    return std::any_of(others.begin(), others.end(), [&](const ViewPolygon* other) {
-      ViewPolygon common = part;
-      return !keep_within(common, *other) || common.has_area();
-    });
-  }
   /// From across the sun's light to across that of its image, by way of the plane.
   void add(const ViewPolygon& part, double reflectance, bool is_certain,
            std::vector<LitPart>& parts) const {
@@ -117,8 +112,7 @@ LitMirrors::LitMirrors(const MirrorGroups& groups, const MirrorPlanes& planes, c
         before_sun.add(*face, reflectance, shades, parts);
     if (parts.empty()) continue;
     planes_.emplace_back(tree, frame_, plane.before, offset_m, std::move(parts));
-    box_.include({planes_.back().box().x0, planes_.back().box().y0});
-    box_.include({planes_.back().box().x1, planes_.back().box().y1});
+    box_.include_box(planes_.back().box());
   }
 }
 

@@ -103,14 +103,8 @@ bool MirrorShades::make_outline(std::uint32_t face, std::span<const HalfSpace> p
   }
   made.polygon = kept.seen(frame_);
   made.box = box_of(made.polygon);
-  made.area = made.polygon.has_area() ? made.polygon.area() : 0;
+  made.area = made.polygon.area();
   return made.area > 0;
-}
-
-void sort_largest_first(std::vector<const FaceOutline*>& shades) {
-  std::sort(shades.begin(), shades.end(), [](const FaceOutline* a, const FaceOutline* b) {
-    return a->area > b->area || (a->area == b->area && a->face < b->face);
-  });
 }
 
 }  // namespace sunload

@@ -46,7 +46,6 @@ class MirrorShades {
   /// `tree` must outlive it. `frame`: towards the sun, or towards the mirrors.
   MirrorShades(const FaceTree& tree, const ViewFrame& frame, const ViewBox& box,
                const HalfSpace& before);
-  const ViewFrame& frame() const { return frame_; }
   /// Calls `visit` with each outline whose box meets another.
   template <class Visit>
   void visit(const ViewBox& box, const Visit& visit) const {
@@ -66,9 +65,5 @@ class MirrorShades {
   std::vector<FaceOutline> outlines_;
   BoxGrid grid_;
 };
-
-/// Takes shades away in an order in which no other light has a part: the largest first, which
-/// leaves least to cut.
-void sort_largest_first(std::vector<const FaceOutline*>& shades);
 
 }  // namespace sunload

@@ -18,7 +18,7 @@ constexpr double flat_mirrors = 0.25;
 /// Cosine below which light that grazes a patch brings none.
 constexpr double least_cosine = 1e-6;
 /// Of a patch's area: less is rounding.
-constexpr double least_share = 1e-9;
+constexpr double least_seen = 1e-9;
 constexpr std::size_t groups_per_task = 16, fewest_at_once = 16;
 
 }  // namespace
@@ -87,8 +87,7 @@ class MirroredShares::GroupWork {
       if (!keep_within(light, group)) return doubt(box_of(part.polygon));
       if (!light.has_area()) return;
       const ViewBox box = box_of(light);
-      all.include({box.x0, box.y0});
-      all.include({box.x1, box.y1});
+      all.include_box(box);
       falling_.push_back({light, box, &part});
     });
     if (falling_.empty()) return;
@@ -107,7 +106,7 @@ class MirroredShares::GroupWork {
       if (is_before == MirrorShades::Before::part) ++count;
     });
     for (std::size_t i = 0; i < count; ++i) shades_.push_back(&made_[i]);
-    sort_largest_first(shades_);
+    std::sort(shades_.begin(), shades_.end(), LargestFirst());
   }
   void shine(const Falling& light) {
     cover_.clear();
@@ -118,7 +117,7 @@ class MirroredShares::GroupWork {
     if (!area_.parts(light.polygon, cover_, lit_)) return doubt(light.box);
     for (const ViewPolygon& lit : lit_) {
       const ViewBox lit_box = box_of(lit);
-      if (!light.part->is_certain || any_screen_within(lit))
+      if (!light.part->is_certain || any_reaches_into(screens_, lit))
         doubt(lit_box);
       else
         for (Patch& patch : patches_)
@@ -131,14 +130,8 @@ class MirroredShares::GroupWork {
       patch.is_told = false;
       return;
     }
-    const double area = common.has_area() ? common.area() : 0;
-    if (area > least_share * patch.area) patch.light += reflectance * area;
-  }
-  bool any_screen_within(const ViewPolygon& lit) const {
-    return std::any_of(screens_.begin(), screens_.end(), [&](const ViewPolygon* screen) {
-      ViewPolygon common = lit;
-      return !keep_within(common, *screen) || common.has_area();
-    });
+    const double area = common.area();
+    if (area > least_seen * patch.area) patch.light += reflectance * area;
   }
   /// Rays must tell of the patches that may lie there.
   void doubt(const ViewBox& box) {

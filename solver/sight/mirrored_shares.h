@@ -35,7 +35,6 @@ class MirroredShares {
              std::span<const std::vector<MirroredSun>> by_mirrors) const;
 
   const LitShares& shares() const { return shares_; }
-  const FaceTree& tree() const { return tree_; }
 
  private:
   class GroupWork;

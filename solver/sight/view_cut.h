@@ -4,7 +4,9 @@
 /// polygon clipping.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 #include "solver/sight/view_polygon.h"
 
@@ -66,6 +68,15 @@ inline bool keep_within(ViewPolygon& polygon, const ViewPolygon& other) {
     polygon = within;
   }
   return true;
+}
+
+/// Whether a polygon has something in common with one of others.
+inline bool any_reaches_into(std::span<const ViewPolygon* const> others,
+                             const ViewPolygon& polygon) {
+  return std::any_of(others.begin(), others.end(), [&](const ViewPolygon* other) {
+    ViewPolygon common = polygon;
+    return !keep_within(common, *other) || common.has_area();
+  });
 }
 
 inline ViewBox box_of(const ViewPolygon& polygon) {

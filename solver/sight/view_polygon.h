@@ -37,7 +37,8 @@ class ViewPolygon {
     for (std::size_t k = size_; k > 0; --k) other.add(corner_[k - 1]);
     return other;
   }
-  double area() const {
+  double area() const {  ///< 0 of fewer than three corners
+    if (!has_area()) return 0;
     double twice = 0;
     const ViewCorner o = corner_[0];
     for (std::size_t k = 2; k < size_; ++k) {
@@ -74,6 +75,10 @@ struct ViewBox {
     x1 = std::max(x1, p.x);
     y0 = std::min(y0, p.y);
     y1 = std::max(y1, p.y);
+  }
+  void include_box(const ViewBox& b) {
+    include(ViewCorner{b.x0, b.y0});
+    include(ViewCorner{b.x1, b.y1});
   }
   bool is_apart_from(const ViewBox& b, double by_x, double by_y) const {
     return b.x0 > x1 + by_x || b.x1 < x0 - by_x || b.y0 > y1 + by_y || b.y1 < y0 - by_y;

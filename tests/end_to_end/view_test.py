@@ -57,6 +57,12 @@ def run(words, **options):
     return ran.stdout
 
 
+def write(folder, texts):
+    for name, text in texts.items():
+        with open(os.path.join(folder, name), "w") as file:
+            file.write(text)
+
+
 class Pictures:
     def __init__(self, folder):
         self.folder = folder
@@ -234,9 +240,7 @@ def test_frames(probe, folder, sunload):
     study = STUDY.replace("name: square", "name: town").replace("fine, mesh: {max_edge_m: 1.8}", "east, scene: {edit: [{object: west, remove: true}]}")
     study = study.replace("files: [square.obj]", "files: [{file: town.obj, position_m: [345000, 6297000, 0]}]")
     study = "".join(line for line in study.splitlines(True) if not line.startswith(("sensors", "  materials")) and "bright" not in line)
-    for name, text in (("town.obj", TWO_HOUSES), ("town.yaml", study)):
-        with open(os.path.join(folder, name), "w") as file:
-            file.write(text)
+    write(folder, {"town.obj": TWO_HOUSES, "town.yaml": study})
     run([sunload, "run", "town.yaml"], cwd=folder)
     both, east = (os.path.join(folder, f"results/town/{name}.h5") for name in ("baseline", "east"))
     page = os.path.join(folder, "town.html")
@@ -269,9 +273,7 @@ def test_refusals(sunload, folder, path, probe):
 def test(sunload, source, packages, folder):
     sys.path.insert(0, os.path.join(source, "scripts/plot"))
     sys.dont_write_bytecode = True
-    for name, text in (("square.obj", SQUARE.replace("o house", "o " + EVIL)), ("square.yaml", STUDY)):
-        with open(os.path.join(folder, name), "w") as file:
-            file.write(text)
+    write(folder, {"square.obj": SQUARE.replace("o house", "o " + EVIL), "square.yaml": STUDY})
     run([sunload, "run", "square.yaml"], cwd=folder)
     path, other = (os.path.join(folder, f"results/square/{name}.h5") for name in ("baseline", "bright"))
     page = os.path.join(folder, "page.html")

@@ -11,7 +11,7 @@
 
 #include "solver/base/threads.h"
 #include "solver/first_light/direct_sun.h"
-#include "solver/first_light/sun_beams.h"
+#include "solver/first_light/mirror_sun.h"
 #include "tests/support/scenes.h"
 
 namespace sunload::test {
@@ -79,14 +79,6 @@ Scene street_of_glass(double depth, double hedge_transmittance) {
   return askew(b.scene());
 }
 
-std::vector<std::vector<MirroredSun>> by_mirrors_of(const std::vector<SunBeams>& beams) {
-  std::vector<std::vector<MirroredSun>> all(beams.size());
-  for (std::size_t k = 0; k < beams.size(); ++k)
-    for (std::size_t b = 0; b < beams[k].size(); ++b)
-      all[k].push_back({beams[k][b].group, beams[k][b].triangles, beams[k][b].image});
-  return all;
-}
-
 std::vector<SunBeams> beams_once_reflected(const MirrorGroups& groups,
                                            const std::vector<IntervalLight>& block) {
   std::vector<SunBeams> beams;
@@ -100,7 +92,7 @@ Columns mirrored_of(const Scene& scene, const Hierarchy& mesh,
   const LitShares shares(scene, mesh, ray_offset_m(scene.mesh));
   const MirrorGroups groups(scene);
   const auto beams = beams_once_reflected(groups, block);
-  return MirroredShares(shares, groups).of(block, by_mirrors_of(beams));
+  return MirroredShares(shares, groups).of(block, once_reflected(beams));
 }
 
 /// The same by rays: from points of patches to the mirrors, and from there to the sun.
