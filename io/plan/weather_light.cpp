@@ -269,6 +269,7 @@ SunPath StudyWeather::path_of(const std::vector<DatedWeather>& weather,
                               const std::vector<std::size_t>& records) const {
   if (records.empty()) return {};
   std::vector<DatedWeather> these;
+  these.reserve(records.size());
   for (const std::size_t i : records) these.push_back(weather[i]);
   return sun_path(steps_of(these), site_, study_.sun.refraction, study_.sun.ut1_utc);
 }
