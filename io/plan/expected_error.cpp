@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/plan/surface_shares.h"
 #include "io/plan/work_estimate.h"
 #include "solver/surface/ray_caster.h"
 
@@ -89,9 +90,13 @@ std::vector<std::string> coarse_warnings(const MeshStudy& rules, const Hierarchy
 
 /// The sun on patches that a shadow's edge crosses is told by rays at some of them.
 bool asks_rays_at_edges(const VariantPlan& plan) {
-  const auto materials = materials_of(plan);
-  return plan.study.sun.disk == SunDisk::finite ||
-         std::any_of(materials.begin(), materials.end(), goes_on_straight);
+  if (plan.study.sun.disk == SunDisk::finite) return true;
+  const Mesh& mesh = plan.built.scene.mesh;
+  const auto lets_pass = [](const Material& m) { return m.transmittance > 0; };
+  return mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
+           return share_of_surfaces(mesh, of_season, lets_pass) +
+                  share_that_sends_on_by_rays(mesh, of_season, plan.study.solver.transport);
+         }) > 0;
 }
 
 }  // namespace
@@ -118,8 +123,9 @@ std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const 
       error > tolerable_of_samples && asks_rays_at_edges(plan))
     warnings.push_back(fmt::format(
         "solver.direct_samples {} lets expect a standard error of up to {:.0f} % of the sun on "
-        "patches that a shadow's edge crosses and rays look from (mirrors, panes, gloss; behind "
-        "screens; where the sun has a disk); {} would give at most {:.0f} %",
+        "patches that a shadow's edge crosses and rays look from (mirrors, panes and gloss "
+        "where there is much of them; behind screens; where the sun has a disk); {} would give at "
+        "most {:.0f} %",
         s.direct_samples, 100 * error, count_for(of_samples, tolerable_of_samples),
         100 * tolerable_of_samples));
   if (s.transport != Transport::shoot) return warnings;

@@ -3,8 +3,15 @@
 #include "io/plan/surface_shares.h"
 
 #include "solver/base/cost.h"
+#include "solver/sight/lit_shares.h"
 
 namespace sunload {
+
+double share_that_sends_on_by_rays(const Mesh& mesh, const MaterialsOfScene& of_season,
+                                   Transport transport) {
+  const double share = share_of_surfaces(mesh, of_season, sends_on);
+  return transport == Transport::shoot || share > sending_as_others ? share : 0;
+}
 
 double rays_per_line(const Mesh& mesh, const MaterialsOfScene& of_season, int mirror_depth) {
   const double again = cost::share_that_meets * share_of_surfaces(mesh, of_season, sends_on);

@@ -3,6 +3,7 @@
 /// How much of a scene's surfaces has a property, in each season: what estimates go by.
 #pragma once
 
+#include "geo/mesh/area_share.h"
 #include "io/plan/seasons_of_plan.h"
 
 namespace sunload {
@@ -11,14 +12,13 @@ namespace sunload {
 template <class Property>
 double share_of_surfaces(const Mesh& mesh, const MaterialsOfScene& of_season,
                          const Property& property) {
-  double area = 0, with_it = 0;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const double of_triangle = norm(mesh.area_vector2(t));
-    area += of_triangle;
-    if (property(of_season.of(t))) with_it += of_triangle;
-  }
-  return area > 0 ? with_it / area : 0;
+  return area_share(mesh, [&](std::size_t t) { return property(of_season.of(t)); });
 }
+
+/// Of the surfaces, what sends light on and is asked for the sun by rays where edges of shadows
+/// cross it (solver/sight/lit_shares.h).
+double share_that_sends_on_by_rays(const Mesh& mesh, const MaterialsOfScene& of_season,
+                                   Transport transport);
 
 /// Rays that a line is made of where mirrors send it on: of what it meets, as much as there is
 /// mirror, glass, metal and gloss among the surfaces.

@@ -136,12 +136,13 @@ double circumsolar_receivers(const VariantPlan& plan, std::size_t patches) {
 }
 
 /// Patches and sensors to which rays tell of the sun: where edges of shadows cross what sends light
-/// on, or the sun has a disk, and behind screens.
+/// on by rays, or the sun has a disk, and behind screens.
 double asked_by_rays(const VariantPlan& plan, std::size_t patches) {
   const bool by_grid = plan.light.any_joined();
   const double share = mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
     const Mesh& mesh = plan.built.scene.mesh;
-    const double sending = by_grid ? 0 : share_of_surfaces(mesh, of_season, sends_on);
+    const double sending =
+        by_grid ? 0 : share_that_sends_on_by_rays(mesh, of_season, plan.study.solver.transport);
     const auto lets_pass = [](const Material& m) { return m.transmittance > 0; };
     const bool screens = share_of_surfaces(mesh, of_season, lets_pass) > 0;
     double left = screens ? share_behind_screens : 0;

@@ -116,11 +116,7 @@ struct Mirrored {
 constexpr int raster_size = 64;
 
 Mirrored mirrored(const TracedScene& traced, const IntervalLight& sun, bool is_for_sensors) {
-  const SolverRules& rules = traced.rules;
-  Mirrored by{SunBeams(traced.mirrors, sun,
-                       {rules.mirror_depth, rules.faint_glint, rules.most_sun_beams,
-                        traced.caster.offset_m()}),
-              {}};
+  Mirrored by{beams_on_patches(traced, sun), {}};
   if (is_for_sensors) by.beams = beams_on_sensors(traced, sun, std::move(by.beams));
   for (std::size_t b = 0; b < by.beams.size(); ++b)
     by.rasters.emplace_back(by.beams[b].section, by.beams[b].image, by.beams.spread(), raster_size);

@@ -252,11 +252,13 @@ RayCaster::Shares shares_of_light(const SunSampler& sampler, const RayCaster& ca
 LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet) {
-  LitSamples samples{sampler.origins(geometry, seeds, packet),
-                     sampler.directions(sun, seeds, packet),
-                     sampler.active(packet),
-                     0,
-                     {}};
+  return lit_samples(sampler, caster, sampler.origins(geometry, seeds, packet),
+                     sampler.directions(sun, seeds, packet), sampler.active(packet));
+}
+
+LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const Packet& origins,
+                       const PacketDirections& to_sun, std::uint32_t active) {
+  LitSamples samples{origins, to_sun, active, 0, {}};
   samples.share = shares_of_light(sampler, caster, samples.origins, samples.to_sun, samples.active);
   for (std::size_t l = 0; l < packet_size; ++l)
     if (samples.share[l] > 0) samples.lit |= 1u << l;

@@ -143,10 +143,13 @@ struct LitSamples {
   RayCaster::Shares share;  ///< of the sun that each sees
 };
 /// The only place that asks rays for the direct sun of a receiver, so that what surfaces receive
-/// and what they send on rest on the same rays. `seeds`: of this receiver and sun.
+/// and what they send on can rest on the same rays. `seeds`: of this receiver and sun.
 LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet);
+/// Which of these see the sun.
+LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const Packet& origins,
+                       const PacketDirections& to_sun, std::uint32_t active);
 
 /// Unit direction to the point on the sun's disk that lies along `to_sun`, of any length, as a
 /// surface of that normal sees it: to the centre where the disk has half set behind the surface,

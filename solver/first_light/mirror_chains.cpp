@@ -6,9 +6,18 @@
 #include <bit>
 
 #include "solver/base/chunks.h"
+#include "solver/base/sampling.h"
 #include "solver/base/threads.h"
 
 namespace sunload {
+
+namespace {
+
+/// Of one sun, over all realizations, where chains only book ends: each realization of 8 then knows
+/// the shares of what mirrors send on to 0.03 (0.5 / √256), all of them together to 0.01.
+constexpr std::size_t samples_of_ends = 2048;
+
+}  // namespace
 
 MirrorChains::MirrorChains(const Hierarchy& hierarchy, const RayCaster& caster,
                            const SunSampler& sampler, const MirrorGroups& groups,
@@ -25,6 +34,18 @@ MirrorChains::MirrorChains(const Hierarchy& hierarchy, const RayCaster& caster,
   }
 }
 
+void MirrorChains::PoweredMirrors::add(const Mirror& mirror) {
+  if (mirror.power <= 0) return;
+  end_.push_back(power() + mirror.power);
+  mirrors_.push_back(mirror);
+}
+
+const MirrorChains::Mirror& MirrorChains::PoweredMirrors::at(double power) const {
+  const auto found = std::upper_bound(end_.begin(), end_.end(), power);
+  const auto last = end_.end() - 1;  // where rounding leads beyond it
+  return mirrors_[static_cast<std::size_t>(std::min(found, last) - end_.begin())];
+}
+
 /// Chains from the mirror patches of one task.
 class MirrorChains::Task {
  public:
@@ -36,36 +57,52 @@ class MirrorChains::Task {
     double power;  ///< [W]
   };
 
+  /// The samples of one patch.
   void send_on(const IntervalLight& sun, std::size_t k, const SunBeams& beams, std::size_t patch) {
-    const auto geometry = c_.sampler_.geometry(patch);
-    const double cos_theta = dot(geometry.normal, sun.direction);
-    if (cos_theta <= 0) return;
-    const Patch& mirror = c_.hierarchy_.patches()[patch];
-    const Material& material = c_.walk_.material_of_patch(patch);
-    const auto group =
-        static_cast<std::size_t>(c_.groups_.of_side(mirror.triangle, mirror.side == 0));
     const double samples_each =
         static_cast<double>(c_.sampler_.samples()) / static_cast<double>(fates.size());
-    const double power_per_sample =
-        c_.hierarchy_.area()[patch] * sun.dni * cos_theta / samples_each;
-    const double sent = power_per_sample * c_.groups_.reflectance(mirror.triangle, cos_theta);
+    const Mirror mirror = c_.mirror(patch, sun);
+    if (mirror.power <= 0) return;
+    const auto geometry = c_.sampler_.geometry(patch);
     c_.sampler_.seed(patch, sun.number, seeds_);
     for (std::size_t p = 0; p < c_.sampler_.packets(); ++p) {
       LitSamples samples = lit_samples(c_.sampler_, c_.caster_, sun, geometry, seeds_, p);
-      rays += count(samples.active);
-      for (auto bits = samples.lit; bits != 0; bits &= bits - 1) {
-        const auto l = static_cast<std::size_t>(std::countr_zero(bits));
-        chains_[l] = {at(samples.to_sun, l),
-                      group,
-                      beams.next(-1, group),
-                      sent,
-                      power_per_sample,
-                      static_cast<std::uint16_t>(c_.sampler_.realization(p * packet_size + l))};
-        // The glossy part of the sun's light is GlossySun's.
-        if (is_pane_or_metal(material))
-          keep(material, power_per_sample, cos_theta, fates[chains_[l].realization][k]);
+      for (std::size_t l = 0; l < packet_size; ++l)
+        if ((samples.lit >> l & 1u) != 0)
+          begin(k, beams, mirror, mirror.power / samples_each,
+                c_.sampler_.realization(p * packet_size + l), at(samples.to_sun, l), chains_[l]);
+      follow(k, beams, samples);
+    }
+  }
+
+  /// Those of one realization, `count` of the same power, wherever mirrors receive it.
+  void send_on(const IntervalLight& sun, std::size_t k, const SunBeams& beams,
+               const PoweredMirrors& mirrors, std::size_t realization, std::size_t count) {
+    RandomKey key{.seed = c_.sampler_.study_seed(),
+                  .purpose = Purpose::mirror_sun,
+                  .realization = static_cast<std::uint32_t>(realization),
+                  .sun = sun.number};
+    const double step = mirrors.power() / static_cast<double>(count);
+    const double offset = random_words(key)[0] * 0x1p-32;
+    const SunPoints disk(sun);
+    for (std::size_t first = 0; first < count; first += packet_size) {
+      const std::size_t lanes = std::min(packet_size, count - first);
+      Packet origins{};
+      PacketDirections to_sun{};
+      std::array<const Mirror*, packet_size> of_lane{};
+      for (std::size_t l = 0; l < lanes; ++l) {
+        of_lane[l] = &mirrors.at(step * (static_cast<double>(first + l) + offset));
+        key.block = static_cast<std::uint32_t>(1 + first + l);
+        const RandomWords words = random_words(key);
+        put(origins, l, c_.point(*of_lane[l], words));
+        put(to_sun, l, disk.at(words[2] * 0x1p-32, words[3] * 0x1p-32));
       }
-      if (sent > 0) follow(k, beams, samples.origins, samples.lit);
+      LitSamples samples = lit_samples(c_.sampler_, c_.caster_, origins, to_sun,
+                                       static_cast<std::uint32_t>((std::uint64_t{1} << lanes) - 1));
+      for (std::size_t l = 0; l < lanes; ++l)
+        if ((samples.lit >> l & 1u) != 0)
+          begin(k, beams, *of_lane[l], step, realization, at(to_sun, l), chains_[l]);
+      follow(k, beams, samples);
     }
   }
 
@@ -88,6 +125,28 @@ class MirrorChains::Task {
     double first_power;  ///< of the sun's light that it began with
     std::uint16_t realization;
   };
+
+  /// A chain where the sun meets its first mirror with that power [W]; books what stays there.
+  void begin(std::size_t k, const SunBeams& beams, const Mirror& mirror, double power,
+             std::size_t realization, Vec3 to_sun, Chain& chain) {
+    const Material& material = c_.walk_.material_of_patch(mirror.patch);
+    chain = {to_sun,
+             mirror.group,
+             beams.next(-1, mirror.group),
+             power * mirror.reflectance,
+             power,
+             static_cast<std::uint16_t>(realization)};
+    // The glossy part of the sun's light is GlossySun's.
+    if (is_pane_or_metal(material)) keep(material, power, mirror.cos_theta, fates[realization][k]);
+  }
+
+  /// Samples that are lit, as far as their mirrors send on anything.
+  void follow(std::size_t k, const SunBeams& beams, LitSamples& samples) {
+    rays += count(samples.active);
+    for (std::size_t l = 0; l < packet_size; ++l)
+      if ((samples.lit >> l & 1u) != 0 && chains_[l].power <= 0) samples.lit &= ~(1u << l);
+    follow(k, beams, samples.origins, samples.lit);
+  }
 
   void follow(std::size_t k, const SunBeams& beams, Packet& points, std::uint32_t active) {
     for (int reflections = 1; active != 0; ++reflections) {
@@ -159,35 +218,90 @@ class MirrorChains::Task {
   Chain chains_[packet_size];
 };
 
+MirrorChains::Mirror MirrorChains::mirror(std::size_t patch, const IntervalLight& sun) const {
+  const Patch& place = hierarchy_.patches()[patch];
+  const double cos_theta = dot(hierarchy_.normal(patch), sun.direction);
+  if (cos_theta <= 0) return {.patch = patch};
+  return {.patch = patch,
+          .group = static_cast<std::size_t>(groups_.of_side(place.triangle, place.side == 0)),
+          .cos_theta = cos_theta,
+          .power = hierarchy_.area()[patch] * sun.dni * cos_theta,
+          .reflectance = groups_.reflectance(place.triangle, cos_theta)};
+}
+
+Vec3 MirrorChains::point(const Mirror& mirror, const RandomWords& words) const {
+  const auto [w0, w1, w2] = sample_triangle(words[0] * 0x1p-32, words[1] * 0x1p-32);
+  const auto [a, b, c] = sampler_.corners(mirror.patch);
+  return w0 * a + w1 * b + w2 * c + hierarchy_.normal(mirror.patch) * sampler_.offset_m();
+}
+
+void MirrorChains::gather(std::span<const Task> tasks, const RaySink& into, SentOn& sent) const {
+  for (const Task& task : tasks) {
+    sent.rays += task.rays;
+    sent.shots += task.arrivals.size();
+    for (std::size_t r = 0; r < task.fates.size(); ++r) sent.fates[r] += task.fates[r];
+    for (const auto& [patch, realization, k, power] : task.arrivals) {
+      const double E = power / hierarchy_.area()[patch];
+      into.add(realization, patch, k, E);
+      into.add_pooled(patch, k, E / static_cast<double>(task.fates.size()));
+    }
+  }
+}
+
+void MirrorChains::follow_each(std::span<const IntervalLight> block,
+                               std::span<const SunBeams> beams, const Columns& shares,
+                               std::span<const std::size_t> suns, const RaySink& into,
+                               SentOn& sent) const {
+  if (suns.empty()) return;
+  // Arrivals are added in rounds, so that no more of them wait than these mirrors make.
+  constexpr std::size_t mirrors_per_task = 16, mirrors_per_round = 1024 * mirrors_per_task;
+  for (std::size_t round = 0; round < mirrors_.size(); round += mirrors_per_round) {
+    const std::size_t mirrors = std::min(mirrors_per_round, mirrors_.size() - round);
+    std::vector<Task> tasks(chunk_count(mirrors, mirrors_per_task),
+                            Task(*this, into.realizations()));
+    parallel_chunks(mirrors, mirrors_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        for (const std::size_t k : suns)
+          if (shares[mirrors_[round + i] * block_width + k] != 0)
+            tasks[begin / mirrors_per_task].send_on(block[k], k, beams[k], mirrors_[round + i]);
+    });
+    gather(tasks, into, sent);
+  }
+}
+
+void MirrorChains::follow_some(std::span<const IntervalLight> block,
+                               std::span<const SunBeams> beams, std::span<const SunOnMirrors> suns,
+                               const RaySink& into, SentOn& sent) const {
+  const std::size_t realizations = into.realizations();
+  std::vector<Task> tasks(suns.size() * realizations, Task(*this, realizations));
+  parallel_for(tasks.size(), [&](std::size_t i) {
+    const auto& [k, mirrors] = suns[i / realizations];
+    tasks[i].send_on(block[k], k, beams[k], mirrors, i % realizations,
+                     std::max<std::size_t>(1, samples_of_ends / realizations));
+  });
+  gather(tasks, into, sent);
+}
+
 MirrorChains::SentOn MirrorChains::follow(std::span<const IntervalLight> block,
                                           std::span<const SunBeams> beams, const Columns& shares,
                                           const RaySink& into) const {
-  // Arrivals are added in rounds, so that no more of them wait than these mirrors make.
-  constexpr std::size_t mirrors_per_task = 16, mirrors_per_round = 1024 * mirrors_per_task;
-  const std::size_t realizations = into.realizations();
-  SentOn sent;
-  sent.fates.resize(realizations);
-  for (std::size_t round = 0; round < mirrors_.size(); round += mirrors_per_round) {
-    const std::size_t mirrors = std::min(mirrors_per_round, mirrors_.size() - round);
-    std::vector<Task> tasks(chunk_count(mirrors, mirrors_per_task), Task(*this, realizations));
-    parallel_chunks(mirrors, mirrors_per_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        for (std::size_t k = 0; k < block.size(); ++k)
-          if (block[k].has_sun() && block[k].dni > 0 &&
-              shares[mirrors_[round + i] * block_width + k] != 0)
-            tasks[begin / mirrors_per_task].send_on(block[k], k, beams[k], mirrors_[round + i]);
-    });
-    for (const auto& task : tasks) {
-      sent.rays += task.rays;
-      sent.shots += task.arrivals.size();
-      for (std::size_t r = 0; r < realizations; ++r) sent.fates[r] += task.fates[r];
-      for (const auto& [patch, realization, k, power] : task.arrivals) {
-        const double E = power / hierarchy_.area()[patch];
-        into.add(realization, patch, k, E);
-        into.add_pooled(patch, k, E / static_cast<double>(realizations));
-      }
-    }
+  std::vector<std::size_t> each;
+  std::vector<SunOnMirrors> some;
+  for (std::size_t k = 0; k < block.size(); ++k) {
+    if (!block[k].has_sun() || block[k].dni <= 0) continue;
+    SunOnMirrors sun{k, {}};
+    if (rules_.books_samples && beams[k].are_all(rules_.negligible))
+      for (const std::size_t patch : mirrors_)
+        if (shares[patch * block_width + k] != 0) sun.mirrors.add(mirror(patch, block[k]));
+    if (sun.mirrors.count() * sampler_.samples() > samples_of_ends)
+      some.push_back(std::move(sun));
+    else
+      each.push_back(k);
   }
+  SentOn sent;
+  sent.fates.resize(into.realizations());
+  follow_each(block, beams, shares, each, into, sent);
+  follow_some(block, beams, some, into, sent);
   return sent;
 }
 

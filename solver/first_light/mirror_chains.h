@@ -6,6 +6,9 @@
 /// beam (solver/first_light/sun_beams.h) stands for its sequence of mirrors: without bias, with
 /// the noise of samples. So curved glass of many facets is served too. What was
 /// reflected twice or more and carries less than a negligible share is cut.
+///
+/// Where beams stand for all that is not negligible, chains tell of its ends alone. Of few mirrors
+/// these are a small share of all light, for which some samples serve as well.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +26,9 @@ namespace sunload {
 struct ChainRules {
   int mirror_depth = 8;   ///< reflections that are followed
   double negligible = 0;  ///< share of the sun below which further reflections are cut
+  /// Where chains only tell of ends, they are some samples of a sun over all mirrors. Else they
+  /// begin with every sample of every patch: no light is lost between what patches get and send on.
+  bool books_samples = false;
 };
 
 /// The samples that see the sun on a mirror patch start the chains. All arguments but the rules
@@ -48,6 +54,43 @@ class MirrorChains {
 
  private:
   class Task;
+  /// A patch before the sun.
+  struct Mirror {
+    std::size_t patch = 0;
+    std::size_t group = 0;
+    double cos_theta = 0;
+    double power = 0;  ///< that it receives if all of it sees the sun [W]
+    double reflectance = 0;
+  };
+  /// Patches by what they receive.
+  class PoweredMirrors {
+   public:
+    void add(const Mirror& mirror);
+    std::size_t count() const { return mirrors_.size(); }
+    double power() const { return end_.empty() ? 0 : end_.back(); }  ///< of all [W]
+    /// That by which the sum of the powers exceeds a part of it.
+    const Mirror& at(double power) const;
+
+   private:
+    std::vector<Mirror> mirrors_;
+    std::vector<double> end_;  ///< sum of powers up to and with each
+  };
+  struct SunOnMirrors {
+    std::size_t k;
+    PoweredMirrors mirrors;
+  };
+
+  Mirror mirror(std::size_t patch, const IntervalLight& sun) const;
+  /// Uniform on the patch, off its surface.
+  Vec3 point(const Mirror& mirror, const RandomWords& words) const;
+  void gather(std::span<const Task> tasks, const RaySink& into, SentOn& sent) const;
+  /// Every sample of every patch, of these suns of the block.
+  void follow_each(std::span<const IntervalLight> block, std::span<const SunBeams> beams,
+                   const Columns& shares, std::span<const std::size_t> suns, const RaySink& into,
+                   SentOn& sent) const;
+  /// Of suns whose beams bring all: as many samples as the ledger needs.
+  void follow_some(std::span<const IntervalLight> block, std::span<const SunBeams> beams,
+                   std::span<const SunOnMirrors> suns, const RaySink& into, SentOn& sent) const;
   const Hierarchy& hierarchy_;
   const RayCaster& caster_;
   const SunSampler& sampler_;

@@ -35,7 +35,7 @@ SunBeams::SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const B
 void SunBeams::follow(std::vector<SunBeam> level) {
   while (!level.empty()) {
     if (beams_.size() + level.size() > static_cast<std::size_t>(rules_.most_beams)) {
-      leaves_out_ = true;
+      leaves_out_ = has_too_many_ = true;
       return;
     }
     const std::size_t begin = beams_.size();
@@ -46,7 +46,7 @@ void SunBeams::follow(std::vector<SunBeam> level) {
 }
 
 void SunBeams::follow_on(double faint_glint, int most_beams) {
-  if (!leaves_out_) return;
+  if (are_all(faint_glint)) return;
   SunBeams further(*groups_);
   further.rules_ = rules_;
   further.rules_.faint_glint = faint_glint;
@@ -72,7 +72,7 @@ std::int32_t SunBeams::next(std::int32_t beam, std::size_t group) const {
 }
 
 std::vector<SunBeam> SunBeams::first_level(const IntervalLight& sun,
-                                           std::span<const std::uint8_t> dark) const {
+                                           std::span<const std::uint8_t> dark) {
   std::vector<SunBeam> level;
   const auto is_lit = [&](std::int32_t triangle) {
     return dark.empty() || dark[static_cast<std::size_t>(triangle)] == 0;
@@ -86,7 +86,10 @@ std::vector<SunBeam> SunBeams::first_level(const IntervalLight& sun,
   };
   std::size_t facing = 0;
   for (std::size_t g = 0; g < groups_->size(); ++g)
-    if (strongest(g) > 0 && ++facing > static_cast<std::size_t>(rules_.most_beams)) return level;
+    if (strongest(g) > 0 && ++facing > static_cast<std::size_t>(rules_.most_beams)) {
+      leaves_out_ = has_too_many_ = true;
+      return level;
+    }
   for (std::size_t g = 0; g < groups_->size(); ++g) {
     const Vec3 n = (*groups_)[g].normal;
     const double reflected = strongest(g);

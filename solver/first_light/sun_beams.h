@@ -64,12 +64,15 @@ class SunBeams {
   std::size_t size() const { return beams_.size(); }
   const SunBeam& operator[](std::size_t beam) const { return beams_[beam]; }
   double spread() const { return spread_; }
+  /// Whether no way is left out that carries more than `negligible` of the sun.
+  bool are_all(double negligible) const {
+    return !has_too_many_ && (!leaves_out_ || rules_.faint_glint <= negligible);
+  }
   /// Beam that mirrors of `group` make of a beam (-1: of the sun); -1: none.
   std::int32_t next(std::int32_t beam, std::size_t group) const;
 
  private:
-  std::vector<SunBeam> first_level(const IntervalLight& sun,
-                                   std::span<const std::uint8_t> dark) const;
+  std::vector<SunBeam> first_level(const IntervalLight& sun, std::span<const std::uint8_t> dark);
   std::vector<SunBeam> next_level(std::size_t begin);
   void follow(std::vector<SunBeam> first_level);
   void append(std::vector<SunBeam> level);
@@ -78,6 +81,7 @@ class SunBeams {
   BeamRules rules_;
   double spread_ = 0;        ///< tangent of the half angle of the sun's disk
   bool leaves_out_ = false;  ///< reflections, as faint or as too many
+  bool has_too_many_ = false;
   std::vector<SunBeam> beams_;
   std::vector<std::pair<std::size_t, std::int32_t>> first_;
 };

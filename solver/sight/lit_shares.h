@@ -9,9 +9,9 @@
 ///
 /// Rays must tell of patches behind screens, through which light passes by chance; of a sun with a
 /// disk of which a part is hidden; of patches that are shaded by so many faces that rays cost less;
-/// and of surfaces that send light on (mirrors, panes, gloss) where a shadow's edge crosses them,
-/// since what these receive and what they send on rest on the same rays. Which patches these are
-/// does not depend on any random number.
+/// and, if these are to, of surfaces that send light on (mirrors, panes, gloss) where a shadow's
+/// edge crosses them, so that what they receive and what they send on rest on the same rays. Which
+/// patches these are does not depend on any random number.
 #pragma once
 
 #include <array>
@@ -26,9 +26,12 @@
 namespace sunload {
 
 /// What tells the share of a surface that sends light on where a shadow's edge crosses it. by_rays:
-/// the rays that the light it sends on rests on; as_others: geometry, where no light is sent on by
-/// rays.
+/// the rays that the light it sends on rests on, so that none is lost between the two; as_others:
+/// geometry, where no light is sent on by rays, or so little that the difference is none.
 enum class SendsOn { by_rays, as_others };
+/// Of the surfaces of a scene, by area: no more of them send on so little. What they receive is
+/// then a small share of all light, of which samples of the sun tell where it goes on to.
+inline constexpr double sending_as_others = 0.1;
 
 /// Shares for any block of suns; const, and may be asked from any thread.
 class LitShares {

@@ -20,13 +20,11 @@ using Suns = std::span<const IntervalLight>;
 /// patches that see the suns.
 std::vector<SunBeams> beams_of(const TracedScene& traced, Suns suns, const Columns& shares) {
   if (traced.mirrors.size() == 0) return {};
-  const BeamRules rules{traced.rules.mirror_depth, traced.rules.faint_glint,
-                        traced.rules.most_sun_beams, traced.caster.offset_m()};
   std::vector<SunBeams> beams(suns.size(), SunBeams(traced.mirrors));
   parallel_for(suns.size(), [&](std::size_t k) {
     if (suns[k].dni > 0)
-      beams[k] = SunBeams(traced.mirrors, suns[k], rules,
-                          traced.mirror_chains.dark_mirrors(suns[k], k, shares));
+      beams[k] =
+          beams_on_patches(traced, suns[k], traced.mirror_chains.dark_mirrors(suns[k], k, shares));
   });
   return beams;
 }
@@ -153,7 +151,8 @@ Columns shares_of_many(const TracedScene& traced, Suns suns) {
 std::vector<Columns> shares_of_patches(const TracedScene& traced, const SunsOneByOne& suns) {
   std::vector<Columns> shares;
   shares.reserve(suns.size());
-  for (const auto& of_intervals : suns) shares.push_back(traced.lit_shares.of(of_intervals));
+  for (const auto& of_intervals : suns)
+    shares.push_back(traced.lit_shares.of(of_intervals, traced.what_sends_on));
   return shares;
 }
 
@@ -310,6 +309,17 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
   work.add(Work::sensor_rays, light_sensors(traced, sources.suns, suns, std::move(beams),
                                             rays.on_sensors, of_sensors));
   return rays;
+}
+
+SunBeams beams_on_patches(const TracedScene& traced, const IntervalLight& sun,
+                          std::span<const std::uint8_t> dark) {
+  const SolverRules& rules = traced.rules;
+  SunBeams beams(
+      traced.mirrors, sun,
+      {rules.mirror_depth, rules.faint_glint, rules.most_sun_beams, traced.caster.offset_m()},
+      dark);
+  beams.follow_on(std::min(rules.unshot, rules.faint_glint), rules.most_sun_beams);
+  return beams;
 }
 
 SunBeams beams_on_sensors(const TracedScene& traced, const IntervalLight& sun, SunBeams beams) {

@@ -37,6 +37,10 @@ BlockRays light_iteration(const TracedScene& traced, const BlockSources& sources
 /// LitShares::of the block, one for each of `suns_one_by_one`.
 std::vector<Columns> shares_of_patches(const TracedScene& traced, const BlockSources& sources,
                                        WorkDone& work);
+/// The beams of a sun that patches ask: down to `unshot` of it where no more than `most_sun_beams`
+/// are there, so that no light is left to chains; else to `faint_glint`. `dark`: as of SunBeams.
+SunBeams beams_on_patches(const TracedScene& traced, const IntervalLight& sun,
+                          std::span<const std::uint8_t> dark = {});
 /// The beams of a sun that sensors ask: no chains of mirrors end on them, so that these go on to
 /// fainter reflections than `beams` of patches. Suns of too many mirrors for beams
 /// (curved glass) get those of the first reflection: sensors are few.

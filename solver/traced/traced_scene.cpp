@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "geo/base/check.h"
+#include "geo/mesh/area_share.h"
 #include "solver/base/stopwatch.h"
 #include "solver/gather/guide.h"
 #include "solver/gather/jacobi.h"
@@ -97,6 +98,14 @@ DirectRules direct_rules(const SolverRules& rules) {
   return {.samples = rules.direct_samples, .realizations = rules.realizations, .seed = rules.seed};
 }
 
+/// How surfaces that send light on are asked for the sun. What is shot is told to the last sample.
+SendsOn asked_for_the_sun(const Scene& scene, const SolverRules& rules) {
+  const double sending =
+      area_share(scene.mesh, [&](std::size_t t) { return sends_on(scene.material_of(t)); });
+  return rules.transport == Transport::shoot || sending > sending_as_others ? SendsOn::by_rays
+                                                                            : SendsOn::as_others;
+}
+
 }  // namespace
 
 // Members are made in the order in which the header has them: each needs those before it.
@@ -110,12 +119,15 @@ TracedScene::TracedScene(const Scene& whole, std::shared_ptr<const Hierarchy> fr
       optics_of_band(optics_of_bands(whole, *mesh, optics, of_study.bands)),
       patches(SunSampler(*mesh, caster, direct_rules(of_study))),
       sensors(SunSampler(whole.sensors, caster, direct_rules(of_study))),
+      what_sends_on(asked_for_the_sun(whole, of_study)),
       lit_shares(whole, *mesh, caster.offset_m()),
       share_grid(lit_shares),
       mirrors(whole),
       mirror_sun(caster, mirrors, lit_shares),
       mirror_chains(*mesh, caster, patches.sampler, mirrors,
-                    {.mirror_depth = of_study.mirror_depth, .negligible = of_study.unshot}),
+                    {.mirror_depth = of_study.mirror_depth,
+                     .negligible = of_study.unshot,
+                     .books_samples = what_sends_on == SendsOn::as_others}),
       glossy_sun(whole, *mesh, caster, patches.sampler, optics, line_rules(of_study)),
       lobe_images(whole, caster, patches.sampler, line_rules(of_study)),
       lobe_images_of_sensors(whole, caster, sensors.sampler, line_rules(of_study)) {

@@ -59,8 +59,9 @@ struct TracedScene {
   PatchOptics optics;                       ///< broadband
   std::vector<PatchOptics> optics_of_band;  ///< one where light is broadband
   Receivers patches, sensors;
-  LitShares lit_shares;  ///< of patches
-  ShareGrid share_grid;  ///< for many suns
+  SendsOn what_sends_on;  ///< to the sun
+  LitShares lit_shares;   ///< of patches
+  ShareGrid share_grid;   ///< for many suns
   MirrorGroups mirrors;
   MirrorSun mirror_sun;
   MirrorChains mirror_chains;

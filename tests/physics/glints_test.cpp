@@ -277,5 +277,31 @@ TEST(SunDiskInAMirror, BlursTheEdgeOfTheGlint) {
   }
 }
 
+// Where mirrors are few, samples of the sun on all of them tell where their light ends: of a mirror
+// that is half in the shade, what passes over the ground escapes.
+TEST(FewMirrors, EndsAreToldBySomeSamples) {
+  constexpr double rho = 0.8, width = 8, low = 2, high = 6, length = 5;
+  const Vec3 sun = normalized({1, 0, 1});
+  SceneBuilder b;
+  const int black = b.material({"black", 0, 0, 0}), mirror = b.material({"mirror", 0, rho, 0});
+  b.quad({0, -60, 0}, {length, -60, 0}, {length, 60, 0}, {0, 60, 0}, black);
+  b.quad({0, 0, low}, {0, width, low}, {0, width, high}, {0, 0, high}, mirror);
+  // Before the sun of the mirror's half, above what this sends on.
+  b.quad({8, width / 2, low + 8}, {8, width, low + 8}, {8, width, high + 8},
+         {8, width / 2, high + 8}, black);
+  const double escapes = rho * dni * sun.x * width / 2 * (high - length);
+  double rays[2];
+  for (const By by : {By::images, By::shooting}) {
+    SCOPED_TRACE(by == By::images ? "some samples" : "every sample");
+    const Solved solved = solve_sun(b.scene(), sun, glint_rules(by, 8), 0.5);
+    rays[by == By::images ? 0 : 1] = solved.work[Work::mirror_rays];
+    // Its lower edge is known to the offset of rays.
+    check_glint("escaped", solved.ledger([](const Ledger& l) { return l[Term::escaped]; }), escapes,
+                1.3 * escapes, 0.001 * escapes);
+    check_ledger("few mirrors", solved);
+  }
+  EXPECT_LT(10 * rays[0], rays[1]);
+}
+
 }  // namespace
 }  // namespace sunload::test

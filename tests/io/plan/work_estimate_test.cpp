@@ -42,8 +42,8 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
                     micro_s(s_per_lit_share)),
         fmt::format("| {} · patches · *lit* that shine · direct_samples | {} |", facing_share,
                     micro_s(s_per_circumsolar_ray)),
-        fmt::format("| {0} · suns · direct_samples · (sensors, {1} of mirrors' patches; {1} of all "
-                    "by a disk, {2} by screens) | {3} |",
+        fmt::format("| {0} · suns · direct_samples · (sensors, {1} of mirrors' patches, if these "
+                    "are more than a tenth; {1} of all by a disk, {2} by screens) | {3} |",
                     facing_share, share_at_edges, share_behind_screens, micro_s(s_per_direct_ray)),
         fmt::format("| {} of patches · suns (street with glass) | {} |", mirrored_share,
                     micro_s(s_per_mirrored_share)),
