@@ -10,6 +10,7 @@
 
 #include "geo/base/units.h"
 #include "geo/sun/resample.h"
+#include "io/plan/weather_gaps.h"
 #include "io/plan/weather_words.h"
 
 namespace sunload {
@@ -51,14 +52,6 @@ bool are_same(const std::vector<DatedWeather>& weather, const SunPath& path) {
                     [](const DatedWeather& w, const SunInterval& i) {
                       return w.begin == i.begin && w.end == i.end;
                     });
-}
-
-std::vector<PeriodStep> steps_of(const std::vector<DatedWeather>& weather) {
-  std::vector<PeriodStep> steps;
-  steps.reserve(weather.size());
-  for (const auto& w : weather)
-    steps.push_back({w.begin, w.end, (w.begin + w.end) / 2, SunInstant::middle_of_sunlit_part});
-  return steps;
 }
 
 }  // namespace
@@ -212,66 +205,16 @@ void StudyWeather::choose_source(const std::vector<DatedWeather>& used) {
 
 std::vector<DatedWeather> StudyWeather::without_gaps(std::vector<DatedWeather> used,
                                                      const SunPath& path) {
-  for (const auto& [has, records] : complete(used))
+  const WeatherGaps gaps(study_, site_, source_);
+  for (const auto& [has, records] : gaps.complete(used))
     warnings_.push_back(fmt::format("weather: {} of {} records {}", records, used.size(),
                                     completed_words(has, study_.light.decomposition)));
-  const FilledWeather gaps = fill_missing(used, source_, Missing::refuse);
-  if (const auto dark = dark_gaps(used); dark.size() == gaps.records) {
-    complete_dark(dark, used);
-    return used;
-  }
-  say_filled(gaps);
+  const FilledWeather lacking = fill_missing(used, source_, Missing::refuse);
+  if (gaps.complete_dark(used) == lacking.records) return used;
+  say_filled(lacking);
   auto all = dated_;  // neighbours may lie outside of the period
-  complete(all);
-  // Nights count where it is asked how long a gap is.
-  const auto dark = dark_gaps(all);
-  auto filled = fill_missing(std::move(all), source_, study_.light.missing).weather;
-  for (const std::size_t i : dark) filled[i].values = dated_[i].values;
-  complete_dark(dark, filled);
-  return used_by(path, filled);
-}
-
-std::vector<std::size_t> StudyWeather::dark_gaps(const std::vector<DatedWeather>& weather) const {
-  std::vector<std::size_t> lacking, dark;
-  for (std::size_t i = 0; i < weather.size(); ++i)
-    if (is_incomplete(weather[i].values, source_)) lacking.push_back(i);
-  const SunPath path = path_of(weather, lacking);
-  for (std::size_t k = 0; k < lacking.size(); ++k)
-    if (path[k].up_s <= 0) dark.push_back(lacking[k]);
-  return dark;
-}
-
-void StudyWeather::complete_dark(const std::vector<std::size_t>& records,
-                                 std::vector<DatedWeather>& weather) const {
-  for (const std::size_t i : records)
-    for (const WeatherQuantity quantity : needed(source_))
-      weather[i].values.*quantity = (weather[i].values.*quantity).value_or(0);
-}
-
-std::map<WeatherSource, std::size_t> StudyWeather::complete(
-    std::vector<DatedWeather>& weather) const {
-  std::vector<std::size_t> places;
-  for (std::size_t i = 0; i < weather.size(); ++i)
-    if (is_incomplete(weather[i].values, source_) &&
-        source_of(weather[i].values) != WeatherSource::none)
-      places.push_back(i);
-  const SunPath path = path_of(weather, places);
-  std::map<WeatherSource, std::size_t> records;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    WeatherValues& values = weather[places[k]].values;
-    ++records[source_of(values)];
-    values = completed(values, path[k], study_.light.decomposition, site_.elevation_m);
-  }
-  return records;
-}
-
-SunPath StudyWeather::path_of(const std::vector<DatedWeather>& weather,
-                              const std::vector<std::size_t>& records) const {
-  if (records.empty()) return {};
-  std::vector<DatedWeather> these;
-  these.reserve(records.size());
-  for (const std::size_t i : records) these.push_back(weather[i]);
-  return sun_path(steps_of(these), site_, study_.sun.refraction, study_.sun.ut1_utc);
+  gaps.complete(all);
+  return used_by(path, gaps.filled(all));
 }
 
 void StudyWeather::expect_covered(const SunPath& path, const std::vector<std::size_t>& uncovered) {

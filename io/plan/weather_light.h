@@ -3,7 +3,6 @@
 /// The weather file of a study as light on its intervals.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -53,16 +52,6 @@ class StudyWeather {
   void choose_source(const std::vector<DatedWeather>& used);
   /// `used`: by the path, as read.
   std::vector<DatedWeather> without_gaps(std::vector<DatedWeather> used, const SunPath& path);
-  /// Records that lack something which follows from what else they have; how many, by that.
-  std::map<WeatherSource, std::size_t> complete(std::vector<DatedWeather>& weather) const;
-  /// The sun of some records.
-  SunPath path_of(const std::vector<DatedWeather>& weather,
-                  const std::vector<std::size_t>& records) const;
-  /// Records that lack values while the sun is down: loggers may write nothing then.
-  std::vector<std::size_t> dark_gaps(const std::vector<DatedWeather>& weather) const;
-  /// What they lack is 0.
-  void complete_dark(const std::vector<std::size_t>& records,
-                     std::vector<DatedWeather>& weather) const;
   void say_file();
   void say_closure(const std::vector<DatedWeather>& used, const SunPath& path);
   void say_doubts(const std::vector<DatedWeather>& used, const SunPath& path);

@@ -3,8 +3,10 @@
 #include "solver/first_light/beam_section.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sunload {
 
@@ -12,22 +14,14 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The part of a convex polygon where inward·(p - through) >= -margin.
-/// Sutherland & Hodgman (1974), Reentrant polygon clipping.
-ConvexPolygon clipped(const ConvexPolygon& polygon, Vec3 through, Vec3 inward, double margin) {
-  ConvexPolygon kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 p = polygon[i], q = polygon[(i + 1) % polygon.size()];
-    const double at_p = dot(p - through, inward) + margin, at_q = dot(q - through, inward) + margin;
-    if (at_p >= 0) kept.push_back(p);
-    if ((at_p >= 0) != (at_q >= 0)) kept.push_back(p + (q - p) * (at_p / (at_p - at_q)));
-  }
-  return kept;
+/// What lies on the side of a point to which `inward` shows, and `margin` beyond.
+HalfSpace beside_point(Vec3 through, Vec3 inward, double margin) {
+  return {inward, dot(through, inward) - margin};
 }
 
-ConvexPolygon whole(const Mesh& mesh, std::int32_t triangle) {
+FlatPolygon whole(const Mesh& mesh, std::int32_t triangle) {
   const auto t = static_cast<std::size_t>(triangle);
-  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+  return FlatPolygon(std::array{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
 }
 
 /// A rectangle on a wall, its sides level and upright.
@@ -40,8 +34,8 @@ class Rectangle {
     u_ = norm(level) > least_sine ? normalized(level) : tangents(normal).tangent;
     v_ = cross(normal, u_);
   }
-  void hold(const ConvexPolygon& polygon) {
-    for (const Vec3 p : polygon) {
+  void hold(const FlatPolygon& polygon) {
+    for (const Vec3 p : polygon.corners()) {
       u0_ = std::min(u0_, dot(p, u_)), u1_ = std::max(u1_, dot(p, u_));
       v0_ = std::min(v0_, dot(p, v_)), v1_ = std::max(v1_, dot(p, v_));
     }
@@ -50,11 +44,13 @@ class Rectangle {
     return u0_ <= other.u0_ && u1_ >= other.u1_ && v0_ <= other.v0_ && v1_ >= other.v1_;
   }
   bool empty() const { return u0_ > u1_; }
-  ConvexPolygon part_of(ConvexPolygon polygon) const {
-    polygon = clipped(polygon, u_ * u0_, u_, 0);
-    polygon = clipped(polygon, u_ * u1_, -u_, 0);
-    polygon = clipped(polygon, v_ * v0_, v_, 0);
-    return clipped(polygon, v_ * v1_, -v_, 0);
+  FlatPolygon part_of(FlatPolygon polygon) const {
+    constexpr double rounding_m = 1e-9;  // corners on the sides are of it
+    for (const HalfSpace& side :
+         {HalfSpace{u_, u0_ - rounding_m}, HalfSpace{-u_, -u1_ - rounding_m},
+          HalfSpace{v_, v0_ - rounding_m}, HalfSpace{-v_, -v1_ - rounding_m}})
+      polygon.keep_before(side);
+    return polygon;
   }
 
  private:
@@ -64,93 +60,70 @@ class Rectangle {
 
 }  // namespace
 
+void BeamSection::Depths::include(double depth) {
+  nearest = std::min(nearest, depth);
+  farthest = std::max(farthest, depth);
+}
+
 BeamSection::BeamSection(const BeamSource& source, const std::vector<ConvexPolygon>& parts)
-    : source_(source),
-      parts_(parts),
-      axes_(tangents(source.w)),
-      all_{infinite, -infinite, infinite, -infinite, infinite, -infinite},
-      asked_(parts.size(), 0) {
+    : source_(source), parts_(parts), across_(source.w) {
+  std::vector<ViewBox> boxes;
   for (const auto& part : parts) {
-    const Box b = box(part);
-    boxes_.push_back(b);
-    all_ = {std::min(all_.x0, b.x0),           std::max(all_.x1, b.x1),
-            std::min(all_.y0, b.y0),           std::max(all_.y1, b.y1),
-            std::min(all_.nearest, b.nearest), std::max(all_.farthest, b.farthest)};
+    boxes.push_back(box(part));
+    depths_.push_back(depths(part));
+    all_.include(depths_.back().nearest);
+    all_.include(depths_.back().farthest);
   }
-  constexpr double most_cells = 128;
-  cells_ =
-      static_cast<int>(std::clamp(std::sqrt(static_cast<double>(parts.size())), 1.0, most_cells));
-  parts_of_cell_.resize(static_cast<std::size_t>(cells_ * cells_));
-  for (std::size_t part = 0; part < parts.size(); ++part)
-    for_each_cell(boxes_[part], [&](std::vector<std::uint32_t>& cell) {
-      cell.push_back(static_cast<std::uint32_t>(part));
-    });
+  grid_ = BoxGrid(std::move(boxes));
 }
 
-BeamSection::Box BeamSection::box(const ConvexPolygon& polygon) const {
-  Box b{infinite, -infinite, infinite, -infinite, infinite, -infinite};
-  for (const Vec3 p : polygon) {
-    const double x = dot(p, axes_.tangent), y = dot(p, axes_.bitangent), z = dot(p, source_.w);
-    b = {std::min(b.x0, x), std::max(b.x1, x),      std::min(b.y0, y),
-         std::max(b.y1, y), std::min(b.nearest, z), std::max(b.farthest, z)};
-  }
-  return b;
+BeamSection::Depths BeamSection::depths(std::span<const Vec3> polygon) const {
+  Depths along;
+  for (const Vec3 p : polygon) along.include(dot(p, source_.w));
+  return along;
 }
 
-template <class Visit>
-void BeamSection::for_each_cell(const Box& b, Visit&& visit) {
-  constexpr double smallest_extent_m = 1e-6;
-  const auto cell = [&](double v, double low, double high) {
-    const double share = (v - low) / std::max(high - low, smallest_extent_m);
-    return static_cast<int>(std::clamp(share * cells_, 0.0, cells_ - 1.0));
-  };
-  const int x0 = cell(b.x0, all_.x0, all_.x1), x1 = cell(b.x1, all_.x0, all_.x1);
-  const int y0 = cell(b.y0, all_.y0, all_.y1), y1 = cell(b.y1, all_.y0, all_.y1);
-  for (int y = y0; y <= y1; ++y)
-    for (int x = x0; x <= x1; ++x) visit(parts_of_cell_[static_cast<std::size_t>(y * cells_ + x)]);
+ViewBox BeamSection::box(std::span<const Vec3> polygon) const {
+  ViewBox box;
+  for (const Vec3 p : polygon) box.include({dot(p, across_.x), dot(p, across_.y)});
+  return box;
 }
 
-std::vector<ConvexPolygon> BeamSection::lit(const MirrorGroups& groups, std::size_t group) {
+std::vector<ConvexPolygon> BeamSection::lit(const MirrorGroups& groups, std::size_t group) const {
   std::vector<ConvexPolygon> section;
   for (const auto triangle : groups[group].triangles) {
-    const ConvexPolygon mirror = whole(groups.scene().mesh, triangle);
-    Box b = box(mirror);
+    const FlatPolygon mirror = whole(groups.scene().mesh, triangle);
+    const double nearest = depths(mirror.corners()).nearest;
     const double beside =
-        source_.margin_m + source_.spread * std::max(0.0, all_.farthest - b.nearest);
-    b.x0 -= beside, b.x1 += beside, b.y0 -= beside, b.y1 += beside;
-    if (b.x1 < all_.x0 || b.x0 > all_.x1 || b.y1 < all_.y0 || b.y0 > all_.y1) continue;
+        source_.margin_m + source_.spread * std::max(0.0, all_.farthest - nearest);
+    ViewBox near = box(mirror.corners());
+    near.x0 -= beside, near.x1 += beside, near.y0 -= beside, near.y1 += beside;
     Rectangle all(groups[group].normal), lit(groups[group].normal);
     all.hold(mirror);
-    ++question_;
-    for_each_cell(b, [&](const std::vector<std::uint32_t>& cell) {
-      for (const auto part : cell) {
-        if (asked_[part] == question_ || lit.holds(all)) continue;
-        asked_[part] = question_;
-        const Box& from = boxes_[part];
-        if (from.x1 < b.x0 || from.x0 > b.x1 || from.y1 < b.y0 || from.y0 > b.y1 ||
-            from.farthest <= b.nearest)
-          continue;
+    grid_.visit(near, [&](std::size_t part) {
+      if (depths_[part].farthest > nearest && !lit.holds(all))
         lit.hold(lit_by(parts_[part], mirror, beside));
-      }
     });
     if (lit.empty()) continue;
-    ConvexPolygon part = lit.part_of(mirror);
-    if (part.size() >= 3) section.push_back(std::move(part));
+    const FlatPolygon part = lit.part_of(mirror);
+    if (part.corners().size() >= 3)
+      section.emplace_back(part.corners().begin(), part.corners().end());
   }
   return section;
 }
 
-ConvexPolygon BeamSection::lit_by(const ConvexPolygon& part, ConvexPolygon mirror,
-                                  double beside) const {
-  mirror = clipped(mirror, part[0], source_.normal, source_.margin_m);  // what is before its plane
+FlatPolygon BeamSection::lit_by(const ConvexPolygon& part, FlatPolygon mirror,
+                                double beside) const {
+  // What is before its plane.
+  mirror.keep_before(beside_point(part[0], source_.normal, source_.margin_m));
   Vec3 middle;
   for (const Vec3 p : part) middle += p / static_cast<double>(part.size());
-  for (std::size_t i = 0; i < part.size() && !mirror.empty(); ++i) {
+  for (std::size_t i = 0; i < part.size() && !mirror.corners().empty(); ++i) {
     const Vec3 p = part[i], across = cross(source_.w, part[(i + 1) % part.size()] - p);
     const double length = norm(across);
     if (length <= 0) continue;  // an edge along the light bounds nothing
     const Vec3 inward = across * (std::copysign(1.0, dot(middle - p, across)) / length);
-    mirror = clipped(mirror, p, inward, beside);
+    mirror.keep_before(beside_point(p, inward, beside));
   }
   return mirror;
 }

@@ -3,10 +3,12 @@
 /// The parts of mirrors that a beam can reach: its section by their planes.
 #pragma once
 
-#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/first_light/beam_raster.h"
+#include "solver/sight/box_grid.h"
+#include "solver/sight/flat_polygon.h"
 #include "solver/surface/mirror_groups.h"
 
 namespace sunload {
@@ -26,27 +28,25 @@ class BeamSection {
   BeamSection(const BeamSource& source, const std::vector<ConvexPolygon>& parts);
   /// For each mirror of the group that the light may meet, one polygon that holds all of its lit
   /// part; what stands between is left out of account.
-  std::vector<ConvexPolygon> lit(const MirrorGroups& groups, std::size_t group);
+  std::vector<ConvexPolygon> lit(const MirrorGroups& groups, std::size_t group) const;
 
  private:
-  struct Box {
-    double x0, x1, y0, y1, nearest, farthest;  ///< the last two along w
+  /// Of parts and mirrors along w.
+  struct Depths {
+    double nearest = 1e300, farthest = -1e300;
+    void include(double depth);
   };
-  Box box(const ConvexPolygon& polygon) const;
+  Depths depths(std::span<const Vec3> polygon) const;
+  ViewBox box(std::span<const Vec3> polygon) const;
   /// What of a mirror a part lights, whose light spreads by `beside` [m].
-  ConvexPolygon lit_by(const ConvexPolygon& part, ConvexPolygon mirror, double beside) const;
-  template <class Visit>
-  void for_each_cell(const Box& box, Visit&& visit);
+  FlatPolygon lit_by(const ConvexPolygon& part, FlatPolygon mirror, double beside) const;
 
   BeamSource source_;
   const std::vector<ConvexPolygon>& parts_;
-  Tangents axes_;
-  std::vector<Box> boxes_;
-  Box all_;
-  int cells_ = 1;  ///< of a grid across w, along each axis
-  std::vector<std::vector<std::uint32_t>> parts_of_cell_;
-  std::vector<std::uint32_t> asked_;  ///< per part: for which mirror last
-  std::uint32_t question_ = 0;
+  ViewFrame across_;
+  std::vector<Depths> depths_;  ///< of each part
+  Depths all_;
+  BoxGrid grid_;  ///< of parts
 };
 
 }  // namespace sunload
