@@ -8,18 +8,16 @@ namespace sunload {
 
 namespace {
 
-constexpr double rounding_s = 1e-3;
-
 double overlap(double a_begin, double a_end, double b_begin, double b_end) {
   return std::max(0.0, std::min(a_end, b_end) - std::max(a_begin, b_begin));
 }
 
 bool has_night_inside(const SunInterval& when) {
-  return when.up_s < when.up_end - when.up_begin - rounding_s;
+  return when.up_s < when.up_end - when.up_begin - same_time_s;
 }
 
 bool holds(const SunInterval& outer, const SunInterval& inner) {
-  return outer.begin <= inner.begin + rounding_s && inner.end <= outer.end + rounding_s;
+  return outer.begin <= inner.begin + same_time_s && inner.end <= outer.end + same_time_s;
 }
 
 /// Time that both have in common while the sun is up. Of two sunlit parts with a night between them

@@ -15,8 +15,6 @@ namespace sunload {
 
 namespace {
 
-/// Overlaps and gaps of less are rounding of stamps.
-constexpr double rounding_s = 1e-3;
 /// Irradiance changes steadily over a few hours at most.
 constexpr double short_gap_s = 3 * seconds_per_hour;
 constexpr double earth_radius_m = 6371008.8;  // IUGG mean radius R1 (Moritz 2000)
@@ -91,12 +89,12 @@ class GapFiller {
 
   std::optional<Neighbour> same_hour(std::size_t at, double step_s) const {
     for (double t = weather_[at].begin + step_s;
-         t >= weather_.front().begin - rounding_s && t <= weather_.back().begin + rounding_s;
+         t >= weather_.front().begin - same_time_s && t <= weather_.back().begin + same_time_s;
          t += step_s) {
       const auto found =
-          std::lower_bound(weather_.begin(), weather_.end(), t - rounding_s,
+          std::lower_bound(weather_.begin(), weather_.end(), t - same_time_s,
                            [](const DatedWeather& w, double time) { return w.begin < time; });
-      if (found == weather_.end() || found->begin > t + rounding_s) continue;
+      if (found == weather_.end() || found->begin > t + same_time_s) continue;
       if (found->values.*quantity_)
         return neighbour(static_cast<std::size_t>(found - weather_.begin()), at);
     }
@@ -175,7 +173,7 @@ class ShiftedClosure {
 
   /// `rest`: DHI - GHI. Intervals that are partly dark have no sun to be shifted.
   void add(const SunInterval& when, double dni, double rest) {
-    if (when.up_s < when.length_s() - rounding_s) return;
+    if (when.up_s < when.length_s() - same_time_s) return;
     step_s_ = when.length_s();
     for (std::size_t s = 0; s < steps.size(); ++s) {
       const double sine = sine_of_elevation(sun_(when.sun_time + steps[s] * step_s_).elevation_deg);
@@ -275,7 +273,7 @@ std::vector<DatedWeather> dated(const std::vector<WeatherRecord>& records,
 
 std::size_t first_out_of_order(const std::vector<DatedWeather>& weather) {
   for (std::size_t i = 1; i < weather.size(); ++i)
-    if (weather[i].begin < weather[i - 1].end - rounding_s) return i;
+    if (weather[i].begin < weather[i - 1].end - same_time_s) return i;
   return weather.size();
 }
 
@@ -344,9 +342,9 @@ FilledWeather fill_missing(std::vector<DatedWeather> weather, WeatherSource sour
       filled.longest_gap_s = std::max(filled.longest_gap_s, length);
       if (missing == Missing::refuse) continue;
       for (std::size_t i = gap.first; i < gap.last; ++i)
-        weather[i].values.*quantity = missing == Missing::zero             ? 0
-                                      : length <= short_gap_s + rounding_s ? filler.linear(gap, i)
-                                                                           : filler.by_days(i);
+        weather[i].values.*quantity = missing == Missing::zero              ? 0
+                                      : length <= short_gap_s + same_time_s ? filler.linear(gap, i)
+                                                                            : filler.by_days(i);
     }
   }
   filled.weather = std::move(weather);

@@ -18,6 +18,9 @@
 
 namespace sunload {
 
+/// Overlaps and gaps of less are rounding of stamps.
+inline constexpr double same_time_s = 1e-3;
+
 /// Of the elevation of an interval's sun; 0 below the horizon.
 double sine_of_sun(const SunInterval& when);
 

@@ -77,8 +77,10 @@ struct Progress::State {
   std::string words() const {
     // `check` refines meshes and lights nothing; pilots do not count their rays.
     const std::string done = suns > 0 ? fmt::format("{}/{} suns, ", suns_done, suns) : "";
+    // Nor are there many where geometry tells of the sun.
+    constexpr double worth_telling = 0.05 * million;
     const std::string speed =
-        rays_per_s > 0 ? fmt::format("{:.1f} Mrays/s, ", rays_per_s / million) : "";
+        rays_per_s >= worth_telling ? fmt::format("{:.1f} Mrays/s, ", rays_per_s / million) : "";
     return fmt::format("{}{}{} left, {:.0f} MiB", done, speed, clock_text(left_s),
                        memory_bytes / mib);
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/weather/file.h"
 
+#include "io/base/file_text.h"
 #include "io/base/names.h"
 #include "io/weather/csv.h"
 #include "io/weather/epw.h"
@@ -13,6 +14,13 @@ namespace sunload {
 
 namespace {
 
+/// Tables and JSON of the European Commission's PVGIS, of a typical year or of hours.
+bool is_of_pvgis(const WeatherText& text) {
+  const std::string_view first = trimmed(text.line(1));
+  return first.starts_with("Latitude (decimal degrees):") ||
+         (first.starts_with("{\"inputs\"") && first.find("decimal degree") != first.npos);
+}
+
 WeatherFile read_by_format(const WeatherText& text, std::optional<Stamp> stamp) {
   if (is_epw(text)) {
     if (stamp && *stamp != Stamp::end)
@@ -23,6 +31,9 @@ WeatherFile read_by_format(const WeatherText& text, std::optional<Stamp> stamp) 
   if (is_wea(text)) return read_wea(text, stamp);
   if (is_tmy3(text)) return read_tmy3(text, stamp);
   if (is_weather_csv(text)) return read_weather_csv(text, stamp);
+  if (is_of_pvgis(text))
+    throw InputError({text.path(), 1, 0}, "is of PVGIS in a form that is not read",
+                     "columns and stamps of its own", "let PVGIS write its typical year as EPW");
   throw InputError({text.path(), 1, 0}, "is no weather file that can be read",
                    "EPW begins with LOCATION, WEA with place, TMY3 has Date (MM/DD/YYYY) on its "
                    "second line, CSV columns named time and dni_w_m2, dhi_w_m2 or ghi_w_m2");

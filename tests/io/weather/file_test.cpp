@@ -112,6 +112,19 @@ TEST(WeatherFiles, ThatAreNoneAreRefusedByReason) {
   }
 }
 
+TEST(WeatherFiles, OfPvgisAreSentToItsEpw) {
+  for (const char* text :
+       {"Latitude (decimal degrees): 45.812\nLongitude (decimal degrees): 8.628\nElevation (m): "
+        "219.0\n"
+        "month,year\n1,2011\n\ntime(UTC),T2m,RH,G(h),Gb(n),Gd(h)\n20110101:0000,0.9,80,0,0,0\n",
+        "{\"inputs\": {\"location\": {\"latitude\": 45.8}}, \"meta\": {\"units\": \"decimal "
+        "degree\"}}\n"}) {
+    const auto message = refused("pvgis.csv", text);
+    EXPECT_NE(message.find("is of PVGIS"), std::string::npos) << message;
+    EXPECT_NE(message.find("EPW"), std::string::npos) << message;
+  }
+}
+
 /// 0xfc is ü in Latin-1.
 TEST(WeatherFiles, NamesOfStationsBecomeUtf8) {
   const std::string day = "time,dni_w_m2,dhi_w_m2\n2026-06-21T12:00,1,1\n2026-06-21T13:00,1,1\n";

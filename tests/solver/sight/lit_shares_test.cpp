@@ -15,6 +15,7 @@
 #include "solver/first_light/direct_sun.h"
 #include "tests/support/real_models.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sights.h"
 
 namespace sunload::test {
 namespace {
@@ -28,31 +29,6 @@ double random_number(std::uint32_t seed, std::uint64_t element) {
                                    .element = element,
                                    .sun = 0});
   return static_cast<double>(uniform(words.word[0][0]));
-}
-
-Vec3 sun_at(double azimuth, double height) {
-  return {std::cos(height) * std::cos(azimuth), std::cos(height) * std::sin(azimuth),
-          std::sin(height)};
-}
-
-std::vector<IntervalLight> block_of(const std::vector<Vec3>& directions, double disk_half_angle) {
-  std::vector<IntervalLight> block;
-  for (const Vec3& direction : directions) {
-    block.push_back(one_second(direction, 1000));
-    block.back().number = static_cast<std::uint32_t>(block.size());
-    block.back().disk_half_angle = disk_half_angle;
-  }
-  return block;
-}
-
-/// Suns from all sides, some of them low, along axes and diagonals.
-std::vector<IntervalLight> suns_all_about(std::size_t count, double disk_half_angle = 0) {
-  std::vector<Vec3> directions;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto i = static_cast<double>(k);
-    directions.push_back(sun_at(k % 4 == 3 ? i * pi / 4 : 2.4 * i, 0.02 + 0.09 * i));
-  }
-  return block_of(directions, disk_half_angle);
 }
 
 /// Suns that stand close together, as those of one hour in many days do.
@@ -75,13 +51,6 @@ SceneBuilder quarter(double hedge_transmittance) {
   b.box({-12, 10, -1}, {12, 11, 2}, hedge, SceneBuilder::Facing::outward);
   b.sides(Sides::two).quad({-20, -20, 6}, {-14, -20, 6}, {-14, -12, 7}, {-20, -12, 7}, grey);
   return b;
-}
-
-/// So that nothing is along an axis.
-Scene turned(Scene scene) {
-  const double c = std::cos(0.3), s = std::sin(0.3);
-  for (Vec3& p : scene.mesh.vertices) p = {c * p.x - s * p.y + 1.7, s * p.x + c * p.y - 0.9, p.z};
-  return scene;
 }
 
 /// Triangles that cut each other, none of them closed, with edges in common where they touch.

@@ -13,39 +13,12 @@
 #include "solver/first_light/direct_sun.h"
 #include "solver/first_light/mirror_sun.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sights.h"
 
 namespace sunload::test {
 namespace {
 
 constexpr double rho = 0.6;  // of mirrors
-
-Vec3 towards(double azimuth, double height) {
-  return {std::cos(height) * std::cos(azimuth), std::cos(height) * std::sin(azimuth),
-          std::sin(height)};
-}
-
-std::vector<IntervalLight> suns_at(const std::vector<Vec3>& directions) {
-  std::vector<IntervalLight> block;
-  for (const Vec3& direction : directions) {
-    block.push_back(one_second(direction, 1000));
-    block.back().number = static_cast<std::uint32_t>(block.size());
-  }
-  return block;
-}
-
-std::vector<IntervalLight> suns_from_all_sides() {
-  std::vector<Vec3> directions;
-  for (int k = 0; k < 16; ++k)
-    directions.push_back(towards(k % 4 == 3 ? k * pi / 4 : 2.4 * k, 0.05 + 0.085 * k));
-  return suns_at(directions);
-}
-
-/// So that nothing is along an axis.
-Scene askew(Scene scene) {
-  const double c = std::cos(0.3), s = std::sin(0.3);
-  for (Vec3& p : scene.mesh.vertices) p = {c * p.x - s * p.y + 1.7, s * p.x + c * p.y - 0.9, p.z};
-  return scene;
-}
 
 /// A wall along y = 0 that looks to -y, with panes in reveals of that depth; a ground, another
 /// house of mirrors, and what stands between.
@@ -76,7 +49,7 @@ Scene street_of_glass(double depth, double hedge_transmittance) {
   b.object("shed").box({1, -7, 0}, {4, -5, 2.5}, grey, SceneBuilder::Facing::outward);
   b.object("hedge").box({-4, -5, -1}, {0, -4.5, 1.5}, hedge, SceneBuilder::Facing::outward);
   b.object("sail").sides(Sides::two).quad({5, -4, 3}, {8, -4, 3}, {8, -2, 4}, {5, -2, 4}, pane);
-  return askew(b.scene());
+  return turned(b.scene());
 }
 
 std::vector<SunBeams> beams_once_reflected(const MirrorGroups& groups,
@@ -172,7 +145,7 @@ constexpr int rays_of_patch = 256;
 /// n^-3/4 (He & Wang 2015), and no pair by more than where all of a row of n^1/2 points is on the
 /// wrong side of several edges.
 void expect_what_rays_tell(const Scene& scene, double max_edge_m, double most_left) {
-  const auto block = suns_from_all_sides();
+  const auto block = suns_all_about(16);
   const Hierarchy mesh(scene, {.max_edge_m = max_edge_m});
   const Difference found =
       difference(scene, mirrored_of(scene, mesh, block), mesh, block, rays_of_patch);
@@ -195,7 +168,7 @@ TEST(MirroredShares, OfAPaneOnTheGroundAreExact) {
   b.quad({-1, 0, 1}, {1, 0, 1}, {1, 0, 2}, {-1, 0, 2}, mirror);
   const Scene scene = b.scene();
   const Hierarchy mesh(scene, {.max_edge_m = 0.7});
-  const auto block = suns_at({towards(-0.5 * pi, 0.5), towards(-1.1, 0.9), towards(-2.2, 0.3)});
+  const auto block = block_of({sun_at(-0.5 * pi, 0.5), sun_at(-1.1, 0.9), sun_at(-2.2, 0.3)});
   const Columns light = mirrored_of(scene, mesh, block);
   for (std::size_t k = 0; k < block.size(); ++k) {
     double power = 0;
@@ -239,7 +212,7 @@ TEST(MirroredShares, AreWhatRaysTellOfFacets) {
 TEST(MirroredShares, LeaveToRaysWhatLightPassesByChance) {
   const Scene scene = street_of_glass(0.25, 0.4);
   const Hierarchy mesh(scene, {.max_edge_m = 1.6});
-  const auto block = suns_from_all_sides();
+  const auto block = suns_all_about(16);
   const Difference found =
       difference(scene, mirrored_of(scene, mesh, block), mesh, block, rays_of_patch);
   EXPECT_GT(found.by_rays, found.lit / 100);
@@ -251,7 +224,7 @@ TEST(MirroredShares, LeaveToRaysWhatLightPassesByChance) {
 TEST(MirroredShares, OfAMirrorThatIsThereTwiceAreThoseOfOne) {
   Scene scene = street_of_glass(0.25, 0);
   const Hierarchy mesh(scene, {.max_edge_m = 1.6});
-  const auto block = suns_from_all_sides();
+  const auto block = suns_all_about(16);
   const Columns once = mirrored_of(scene, mesh, block);
   Mesh& twice = scene.mesh;
   for (std::size_t t = 0, count = twice.triangle_count(); t < count; ++t) {
@@ -275,7 +248,7 @@ TEST(MirroredShares, OfAMirrorThatIsThereTwiceAreThoseOfOne) {
 TEST(MirroredShares, DependNeitherOnThreadsNorOnOtherSuns) {
   const Scene scene = street_of_glass(0.25, 0.4);
   const Hierarchy mesh(scene, {.max_edge_m = 1.6});
-  const auto block = suns_from_all_sides();
+  const auto block = suns_all_about(16);
   const int before = thread_count();
   set_thread_count(1);
   const Columns together = mirrored_of(scene, mesh, block);
@@ -297,7 +270,7 @@ TEST(MirroredShares, ComparisonSeesAMissingHouse) {
     if (without.mesh.object_names[without.mesh.triangle_object[t].index()] == "shed")
       without.mesh.triangles[t] = {0, 0, 0};
   const Hierarchy mesh(scene, {.max_edge_m = 1.6});
-  const auto block = suns_from_all_sides();
+  const auto block = suns_all_about(16);
   const Difference found =
       difference(scene, mirrored_of(without, mesh, block), mesh, block, rays_of_patch);
   EXPECT_GT(found.worst, 0.3);
