@@ -75,8 +75,8 @@ class Steps {
   /// A period that is the file's own cannot begin elsewhere.
   std::string whole_days_words() const {
     if (std::holds_alternative<WeatherPeriod>(study_.period.kind))
-      return "write light.stamp: start or end if the file's times are those, or period.start, end "
-             "and step_min in place of year_of: weather";
+      return "write period.start, end and step_min in place of year_of: weather, or (not for EPW) "
+             "light.stamp: start or end if the file's times are those";
     return "begin the period so that intervals end at midnight";
   }
   [[noreturn]] void refuse_cut(std::size_t k) const {

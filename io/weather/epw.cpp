@@ -39,6 +39,8 @@ struct EpwHeader {
   int records_per_hour = 1;
   std::string_view first_day, last_day;  ///< of the only data period, as written
   std::size_t line = 0;                  ///< of DATA PERIODS
+  /// Of PVGIS: values are of one moment, so long after the hour's end in UTC.
+  std::optional<double> moment_s = {};
 };
 
 bool begins_with_word(std::string_view line, std::string_view word) {
@@ -76,10 +78,23 @@ void read_data_periods(const WeatherText& text, std::size_t line, EpwHeader& hea
   header.line = line;
 }
 
+/// PVGIS tells in a comment when its satellite looked. Its rows are those of its CSV, hours of UTC,
+/// whatever zone LOCATION names (PVGIS 5.3).
+void read_moment(const WeatherText& text, std::size_t line, EpwHeader& header) {
+  static constexpr std::string_view key = "Irradiance Time Offset (h):";
+  const std::string_view words = text.line(line);
+  const auto found = words.find(key);
+  if (found == words.npos) return;
+  const auto written = fields_of(words.substr(found + key.size()), ',').front();
+  header.moment_s =
+      text.number(written, line, "irradiance time offset [h]", -1, 1) * seconds_per_hour;
+}
+
 EpwHeader read_header(const WeatherText& text) {
   EpwHeader header;
   read_location(text, 1, header);
   for (std::size_t line = 2; line <= std::min(text.line_count(), most_header_lines); ++line) {
+    if (begins_with_word(text.line(line), "comments")) read_moment(text, line, header);
     if (!begins_with_word(text.line(line), "data periods")) continue;
     read_data_periods(text, line, header);
     return header;
@@ -170,6 +185,22 @@ void expect_day(const WeatherText& text, const WeatherRecord& record, std::strin
             fmt::format("DATA PERIODS says {}", shown(written)), "is the file cut off?");
 }
 
+/// Hours about the moments of their values.
+void put_about_moments(const EpwHeader& header, WeatherFile& file) {
+  if (!header.moment_s) return;
+  const double later_s = *header.moment_s + seconds_per_hour / 2;
+  for (WeatherRecord& record : file.records) {
+    record.begin_s += later_s;
+    record.end_s += later_s;
+  }
+  file.offset_s = 0;
+  file.notes.push_back(fmt::format(
+      "of PVGIS: values are of moments {:.3g} min after the full hours of UTC (LOCATION "
+      "says UTC{:+g}); each is taken for the hour about it",
+      (seconds_per_hour + *header.moment_s) / seconds_per_minute,
+      header.offset_s / seconds_per_hour));
+}
+
 }  // namespace
 
 bool is_epw(const WeatherText& text) { return begins_with_word(text.line(1), "location,"); }
@@ -210,6 +241,7 @@ WeatherFile read_epw(const WeatherText& text) {
   if (!hours.is_hour_whole() || file.records.back().end_s < seconds_per_day)
     text.fail(text.line_count(), "the last day is not whole", "", "is the file cut off?");
   forget_years_that_do_not_follow(file.records);
+  put_about_moments(header, file);
   irradiance.add_notes(file.notes);
   return file;
 }

@@ -223,6 +223,25 @@ TEST(Epw, HourOneBeginsAtMidnightWhateverTheMinuteSays) {
   }
 }
 
+// Its rows are those of its CSV, hours of UTC; LOCATION may name another zone. A year of PVGIS 5.3
+// (45 N, 8 E) then closes to 0.8 W/m2, and to 32 as its head has it.
+TEST(Epw, OfPvgisHasTheHoursAboutItsMoments) {
+  std::string head = epw_header("1", 1, "6/1", "6/2");
+  head.insert(head.find("DATA PERIODS"), "COMMENTS 2,Irradiance Time Offset (h):-0.8239\n");
+  const auto file = read("a.epw", head + epw_days(2019, 2, 1, 0));
+  EXPECT_EQ(file.offset_s, 0);
+  ASSERT_EQ(file.records.size(), 48u);
+  for (std::size_t i = 0; i < 24; ++i) {
+    const double moment_s = (static_cast<double>(i) + 1 - 0.8239) * 3600;
+    EXPECT_NEAR((file.records[i].begin_s + file.records[i].end_s) / 2, moment_s, 1e-6);
+    EXPECT_NEAR(file.records[i].end_s - file.records[i].begin_s, 3600, 1e-6);
+  }
+  ASSERT_EQ(file.notes.size(), 1u);
+  EXPECT_NE(file.notes[0].find("10.6 min after the full hours of UTC (LOCATION says UTC+1)"),
+            std::string::npos)
+      << file.notes[0];
+}
+
 TEST(Epw, PartsOfAnHourFollowEachOther) {
   const auto file = read("a.epw", epw_header("0", 4, "1-Jun", "2-Jun") + epw_days(1999, 2, 4, 15));
   ASSERT_EQ(file.records.size(), 192u);
