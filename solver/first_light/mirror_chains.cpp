@@ -17,6 +17,17 @@ namespace {
 /// the shares of what mirrors send on to 0.03 (0.5 / √256), all of them together to 0.01.
 constexpr std::size_t samples_of_ends = 2048;
 
+/// Books what a surface that depends on the angle does with light that arrives at it,
+/// but for what it reflects as a mirror. Its lobe is not followed.
+void keep(const Material& m, double power, double cos_theta, Fate<double>& fate) {
+  if (!depends_on_angle(m)) return;
+  const SmoothShares shares = smooth_shares(m, cos_theta);
+  fate.transmitted += power * shares.transmitted;
+  fate.cut += power * m.glossy;
+  fate.absorbed += power * left_over(1 - m.diffuse - shares.mirror - shares.transmitted - m.glossy -
+                                     m.transmittance);
+}
+
 }  // namespace
 
 MirrorChains::MirrorChains(const Hierarchy& hierarchy, const RayCaster& caster,
@@ -137,7 +148,8 @@ class MirrorChains::Task {
              power,
              static_cast<std::uint16_t>(realization)};
     // The glossy part of the sun's light is GlossySun's.
-    if (is_pane_or_metal(material)) keep(material, power, mirror.cos_theta, fates[realization][k]);
+    if (is_pane_or_metal(material) && mirror.share < 0)
+      keep(material, power, mirror.cos_theta, fates[realization][k]);
   }
 
   /// Samples that are lit, as far as their mirrors send on anything.
@@ -172,17 +184,6 @@ class MirrorChains::Task {
       }
       active = further;
     }
-  }
-
-  /// Books what a surface that depends on the angle does with light that arrives at it,
-  /// but for what it reflects as a mirror. Its lobe is not followed.
-  static void keep(const Material& m, double power, double cos_theta, Fate<double>& fate) {
-    if (!depends_on_angle(m)) return;
-    const SmoothShares shares = smooth_shares(m, cos_theta);
-    fate.transmitted += power * shares.transmitted;
-    fate.cut += power * m.glossy;
-    fate.absorbed += power * left_over(1 - m.diffuse - shares.mirror - shares.transmitted -
-                                       m.glossy - m.transmittance);
   }
 
   /// Books what a chain meets; false where it ends there.
@@ -227,6 +228,19 @@ MirrorChains::Mirror MirrorChains::mirror(std::size_t patch, const IntervalLight
           .cos_theta = cos_theta,
           .power = hierarchy_.area()[patch] * sun.dni * cos_theta,
           .reflectance = groups_.reflectance(place.triangle, cos_theta)};
+}
+
+MirrorChains::PoweredMirrors MirrorChains::mirrors_before(const IntervalLight& sun, std::size_t k,
+                                                          const Columns& shares) const {
+  PoweredMirrors mirrors;
+  for (const std::size_t patch : mirrors_) {
+    const float share = shares[patch * block_width + k];
+    if (share == 0) continue;
+    Mirror before = mirror(patch, sun);
+    before.share = static_cast<double>(share);
+    mirrors.add(before);
+  }
+  return mirrors;
 }
 
 Vec3 MirrorChains::point(const Mirror& mirror, const RandomWords& words) const {
@@ -276,10 +290,25 @@ void MirrorChains::follow_some(std::span<const IntervalLight> block,
   std::vector<Task> tasks(suns.size() * realizations, Task(*this, realizations));
   parallel_for(tasks.size(), [&](std::size_t i) {
     const auto& [k, mirrors] = suns[i / realizations];
+    const std::size_t samples =
+        std::min(samples_of_ends, mirrors.all().size() * sampler_.samples()) / realizations;
     tasks[i].send_on(block[k], k, beams[k], mirrors, i % realizations,
-                     std::max<std::size_t>(1, samples_of_ends / realizations));
+                     std::max<std::size_t>(1, samples));
   });
   gather(tasks, into, sent);
+  for (const auto& [k, mirrors] : suns) {
+    const Fate<double> stays = stays_on(mirrors.all());
+    for (SunFates& fates : sent.fates) fates[k] += stays;
+  }
+}
+
+Fate<double> MirrorChains::stays_on(std::span<const Mirror> mirrors) const {
+  Fate<double> stays;
+  for (const Mirror& mirror : mirrors)
+    if (const Material& material = walk_.material_of_patch(mirror.patch);
+        mirror.share > 0 && is_pane_or_metal(material))
+      keep(material, mirror.power * mirror.share, mirror.cos_theta, stays);
+  return stays;
 }
 
 MirrorChains::SentOn MirrorChains::follow(std::span<const IntervalLight> block,
@@ -289,15 +318,12 @@ MirrorChains::SentOn MirrorChains::follow(std::span<const IntervalLight> block,
   std::vector<SunOnMirrors> some;
   for (std::size_t k = 0; k < block.size(); ++k) {
     if (!block[k].has_sun() || block[k].dni <= 0) continue;
-    SunOnMirrors sun{k, {}};
     if (rules_.books_samples && beams[k].are_all(rules_.negligible))
-      for (const std::size_t patch : mirrors_)
-        if (shares[patch * block_width + k] != 0) sun.mirrors.add(mirror(patch, block[k]));
-    if (sun.mirrors.count() * sampler_.samples() > samples_of_ends)
-      some.push_back(std::move(sun));
+      some.push_back({k, mirrors_before(block[k], k, shares)});
     else
       each.push_back(k);
   }
+  std::erase_if(some, [](const SunOnMirrors& sun) { return sun.mirrors.all().empty(); });
   SentOn sent;
   sent.fates.resize(into.realizations());
   follow_each(block, beams, shares, each, into, sent);

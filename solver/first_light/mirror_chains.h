@@ -61,12 +61,13 @@ class MirrorChains {
     double cos_theta = 0;
     double power = 0;  ///< that it receives if all of it sees the sun [W]
     double reflectance = 0;
+    double share = -1;  ///< that sees the sun; below 0: samples tell
   };
   /// Patches by what they receive.
   class PoweredMirrors {
    public:
     void add(const Mirror& mirror);
-    std::size_t count() const { return mirrors_.size(); }
+    std::span<const Mirror> all() const { return mirrors_; }
     double power() const { return end_.empty() ? 0 : end_.back(); }  ///< of all [W]
     /// That by which the sum of the powers exceeds a part of it.
     const Mirror& at(double power) const;
@@ -81,6 +82,11 @@ class MirrorChains {
   };
 
   Mirror mirror(std::size_t patch, const IntervalLight& sun) const;
+  /// Those that may see it.
+  PoweredMirrors mirrors_before(const IntervalLight& sun, std::size_t k,
+                                const Columns& shares) const;
+  /// Of the sun's light on mirrors of which the share is known that sees it [W].
+  Fate<double> stays_on(std::span<const Mirror> mirrors) const;
   /// Uniform on the patch, off its surface.
   Vec3 point(const Mirror& mirror, const RandomWords& words) const;
   void gather(std::span<const Task> tasks, const RaySink& into, SentOn& sent) const;

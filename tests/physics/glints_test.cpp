@@ -277,23 +277,35 @@ TEST(SunDiskInAMirror, BlursTheEdgeOfTheGlint) {
   }
 }
 
+/// A mirror of which half is in the shade, and a ground that ends before it.
+struct HalfInTheShade {
+  static constexpr double width = 8, low = 2, high = 6, length = 5;
+  const Vec3 sun = normalized({1, 0, 1});
+  Scene scene(const Material& mirror) const {
+    SceneBuilder b;
+    const int black = b.material({"black", 0, 0, 0}), of_mirror = b.material(mirror);
+    b.quad({0, -60, 0}, {length, -60, 0}, {length, 60, 0}, {0, 60, 0}, black);
+    b.quad({0, 0, low}, {0, width, low}, {0, width, high}, {0, 0, high}, of_mirror);
+    // Before the sun of the mirror's half, above what this sends on.
+    b.quad({8, width / 2, low + 8}, {8, width, low + 8}, {8, width, high + 8},
+           {8, width / 2, high + 8}, black);
+    return b.scene();
+  }
+  /// What falls on the mirror from a height on [W].
+  double falls_above(double z) const { return dni * sun.x * width / 2 * (high - z); }
+};
+
 // Where mirrors are few, samples of the sun on all of them tell where their light ends: of a mirror
 // that is half in the shade, what passes over the ground escapes.
 TEST(FewMirrors, EndsAreToldBySomeSamples) {
-  constexpr double rho = 0.8, width = 8, low = 2, high = 6, length = 5;
-  const Vec3 sun = normalized({1, 0, 1});
-  SceneBuilder b;
-  const int black = b.material({"black", 0, 0, 0}), mirror = b.material({"mirror", 0, rho, 0});
-  b.quad({0, -60, 0}, {length, -60, 0}, {length, 60, 0}, {0, 60, 0}, black);
-  b.quad({0, 0, low}, {0, width, low}, {0, width, high}, {0, 0, high}, mirror);
-  // Before the sun of the mirror's half, above what this sends on.
-  b.quad({8, width / 2, low + 8}, {8, width, low + 8}, {8, width, high + 8},
-         {8, width / 2, high + 8}, black);
-  const double escapes = rho * dni * sun.x * width / 2 * (high - length);
+  constexpr double rho = 0.8;
+  const HalfInTheShade half;
+  const double escapes = rho * half.falls_above(HalfInTheShade::length);
   double rays[2];
   for (const By by : {By::images, By::shooting}) {
     SCOPED_TRACE(by == By::images ? "some samples" : "every sample");
-    const Solved solved = solve_sun(b.scene(), sun, glint_rules(by, 8), 0.5);
+    const Solved solved =
+        solve_sun(half.scene({"mirror", 0, rho, 0}), half.sun, glint_rules(by, 8), 0.5);
     rays[by == By::images ? 0 : 1] = solved.work[Work::mirror_rays];
     // Its lower edge is known to the offset of rays.
     check_glint("escaped", solved.ledger([](const Ledger& l) { return l[Term::escaped]; }), escapes,
@@ -301,6 +313,22 @@ TEST(FewMirrors, EndsAreToldBySomeSamples) {
     check_ledger("few mirrors", solved);
   }
   EXPECT_LT(10 * rays[0], rays[1]);
+}
+
+// What stays on a pane is told by the share of it that sees the sun: no realization differs.
+TEST(FewMirrors, WhatPanesTransmitHasNoNoise) {
+  const HalfInTheShade half;
+  Material pane{"pane"};
+  pane.smooth = Panes{1.52};
+  const double passes =
+      smooth_shares(pane, half.sun.x).transmitted * half.falls_above(HalfInTheShade::low);
+  for (const double max_edge_m : {0.5, 1e9}) {
+    const Solved solved =
+        solve_sun(half.scene(pane), half.sun, glint_rules(By::images, 8), max_edge_m);
+    for (const double W : solved.ledger([](const Ledger& l) { return l[Term::transmitted]; }))
+      EXPECT_NEAR(W, passes, 0.001 * passes);  // of the offset of rays
+    check_ledger("pane", solved);
+  }
 }
 
 }  // namespace
