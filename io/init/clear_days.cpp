@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <map>
 
 namespace sunload {
 
 namespace {
 
-constexpr int days_of_a_year = 365;
+constexpr int days_of_a_year = 366;
+constexpr std::size_t most_of_a_year = 300;  // days
 
 struct Day {
   CivilTime date;
@@ -38,7 +40,7 @@ std::vector<Day> days_of(const std::vector<WeatherRecord>& records, WeatherSourc
 
 /// Days between the two in the circle of the year.
 int apart(const CivilTime& a, const CivilTime& b) {
-  constexpr int any_year = 2001;
+  constexpr int any_year = 2000;  // has 29 February
   const auto place = [](CivilTime date) {
     date.year = any_year;
     return day_of_year(date);
@@ -52,16 +54,31 @@ constexpr std::array<CivilTime, 3> targets{
 
 /// Whether the day is one of those from which the choice for that target is made.
 bool is_near_target(const std::vector<Day>& days, std::size_t d, std::size_t target) {
-  constexpr std::size_t most_of_a_year = 300;
   constexpr int fortnight = 14;
   if (days.size() < most_of_a_year) return d * targets.size() / days.size() == target;
   return apart(days[d].date, targets[target]) <= fortnight;
 }
 
+/// How many records most of the days near a target have, or most of a few weeks; of two such
+/// numbers the larger. Days of other seasons may have more (files that leave out the dark), as may
+/// the last of February (stamps that end their stretch).
+std::size_t usual_records(const std::vector<Day>& days, std::size_t target) {
+  std::map<std::size_t, std::size_t> days_with;
+  for (std::size_t d = 0; d < days.size(); ++d)
+    if (days.size() < most_of_a_year || is_near_target(days, d, target))
+      ++days_with[days[d].records];
+  std::size_t usual = 0, most = 0;
+  for (const auto& [records, count] : days_with)
+    if (count >= most) {
+      usual = records;
+      most = count;
+    }
+  return usual;
+}
+
 /// Null: there is none.
 const Day* clearest(const std::vector<Day>& days, std::size_t target) {
-  std::size_t whole_day = 0;
-  for (const Day& day : days) whole_day = std::max(whole_day, day.records);
+  const std::size_t whole_day = usual_records(days, target);
   const Day* found = nullptr;
   for (std::size_t d = 0; d < days.size(); ++d) {
     const Day& day = days[d];

@@ -72,8 +72,9 @@ void look_at_site(const InitRules& rules, const BuiltScene& built, Findings& fou
     found.site_source = built.site_source;
   }
   found.is_at_station = has_station && found.crs.empty() && rules.at.empty();
-  const std::optional<double> offset =
-      found.weather ? found.weather->offset_s : std::optional<double>();
+  std::optional<double> offset = found.weather ? found.weather->offset_s : std::optional<double>();
+  // Many files are written in UTC wherever their station stands.
+  if (offset == 0.0) offset.reset();
   if (found.site)
     found.zone = guessed_zone(found.site->latitude_deg, found.site->longitude_deg, offset,
                               found.crs.empty() ? "" : area_of_use_words(found.crs));
@@ -92,7 +93,7 @@ void look_for_missing_rows(Findings& found) {
   const auto weather = dated(found.weather->records, any_leap_year, offset_s);
   const SunEphemeris sun(weather.front().begin, weather.back().end, *found.site, Refraction::spa,
                          Ut1::table, standard_air(found.site->elevation_m));
-  for (const auto& hole : sunlit_holes(weather, sun, offset_s))
+  for (const auto& hole : sunlit_holes(weather, sun, found.site->longitude_deg))
     found.records_incomplete += hole.records.size();
 }
 

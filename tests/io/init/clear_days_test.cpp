@@ -62,6 +62,26 @@ TEST(ClearDays, OfAFewWeeksAreOneOfEachThird) {
   EXPECT_EQ(dates_of({}), Dates{});
 }
 
+/// Files may leave out the dark, and stamps that end their stretch put a record more on one day.
+TEST(ClearDays, AreAsWholeAsThoseAboutThem) {
+  const auto sunny = [](const CivilTime& d) { return d.day == 20 ? 900.0 : 100.0; };
+  auto records = weather(2026, 365, sunny);
+  WeatherRecord more = records[3 * 58];  // 28 February
+  more.begin_s = 0;
+  more.end_s = 3600;
+  records.insert(records.begin() + 3 * 58, more);
+  EXPECT_EQ(dates_of(records), (Dates{"2026-3-20", "2026-6-20", "2026-12-20"}));
+  std::erase_if(records, [](const WeatherRecord& r) {
+    return (r.month < 4 || r.month > 9) && r.begin_s >= 18 * 3600;
+  });
+  EXPECT_EQ(dates_of(records), (Dates{"2026-3-20", "2026-6-20", "2026-12-20"}));
+  // A row that is missing on the clearest day is none of the dark.
+  std::erase_if(records, [](const WeatherRecord& r) {
+    return r.month == 6 && r.day == 20 && r.begin_s == 6 * 3600;
+  });
+  EXPECT_NE(dates_of(records)[1], "2026-6-20");
+}
+
 TEST(ClearDays, AreThereWhereEveryDayLacksSomething) {
   const auto none = [](const CivilTime&) { return std::optional<double>(); };
   EXPECT_EQ(dates_of(weather(2026, 30, none)).size(), 3u);
