@@ -32,7 +32,8 @@ Columns columns_of(const WeatherText& text) {
     if (name == date_name) columns.date = i;
     if (name == time_name) columns.time = i;
     if (name == "ghi (w/m^2)") columns.ghi = i;
-    if (name == "dni (w/m^2)") columns.dni = i;
+    // SolarAnywhere writes one bracket more.
+    if (name == "dni (w/m^2)" || name == "dni (w/m^2))") columns.dni = i;
     if (name == "dhi (w/m^2)") columns.dhi = i;
     if (name == "alb (unitless)") columns.albedo = i;
   }

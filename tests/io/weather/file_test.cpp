@@ -375,6 +375,14 @@ TEST(Tmy3, StampsEndTheHourAndMonthsComeFromManyYears) {
             23 * 3600.0);
 }
 
+// SolarAnywhere's heads.
+TEST(Tmy3, ABracketMoreIsNoOtherColumn) {
+  std::string head = tmy3_head;
+  head.insert(head.find("DNI (W/m^2)") + 11, ")");
+  const auto file = read("a.csv", head + "01/31/1988,23:00,0,1,2,3\n01/31/1988,24:00,0,4,5,6\n");
+  EXPECT_EQ(*file.records[1].values.dni, 5);
+}
+
 TEST(Tmy3, WrongRowsAreNamed) {
   EXPECT_NE(
       refused("a.csv", tmy3_head + "1988-01-31,23:00,0,1,2,3\n").find("a.csv:3: '1988-01-31'"),
