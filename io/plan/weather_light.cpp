@@ -280,7 +280,7 @@ void StudyWeather::say_file() {
       years_ == WeatherYears::typical
           ? (own ? fmt::format("typical year written as {}", first_year())
                  : std::string("typical year, taken for the dates of the period"))
-          : fmt::format("years {} to {}{}", first.year, file_.records.back().year,
+          : fmt::format("years {} to {}{}", begin_year(first), begin_year(file_.records.back()),
                         own && first_year() != first.year
                             ? fmt::format(" written as {}", first_year())
                             : ""),
