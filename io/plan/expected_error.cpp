@@ -92,9 +92,8 @@ std::vector<std::string> coarse_warnings(const MeshStudy& rules, const Hierarchy
 bool asks_rays_at_edges(const VariantPlan& plan) {
   if (plan.study.sun.disk == SunDisk::finite) return true;
   const Mesh& mesh = plan.built.scene.mesh;
-  const auto lets_pass = [](const Material& m) { return m.transmittance > 0; };
   return mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
-           return share_of_surfaces(mesh, of_season, lets_pass) +
+           return share_of_screens(mesh, of_season) +
                   share_that_sends_on_by_rays(mesh, of_season, plan.study.solver.transport);
          }) > 0;
 }

@@ -7,10 +7,14 @@
 
 namespace sunload {
 
+double share_of_screens(const Mesh& mesh, const MaterialsOfScene& of_season) {
+  return share_of_surfaces(mesh, of_season, [](const Material& m) { return m.transmittance > 0; });
+}
+
 double share_that_sends_on_by_rays(const Mesh& mesh, const MaterialsOfScene& of_season,
                                    Transport transport) {
   const double share = share_of_surfaces(mesh, of_season, sends_on);
-  return transport == Transport::shoot || share > sending_as_others ? share : 0;
+  return asked_for_the_sun(share, transport) == SendsOn::by_rays ? share : 0;
 }
 
 double rays_per_line(const Mesh& mesh, const MaterialsOfScene& of_season, int mirror_depth) {

@@ -15,6 +15,8 @@ double share_of_surfaces(const Mesh& mesh, const MaterialsOfScene& of_season,
   return area_share(mesh, [&](std::size_t t) { return property(of_season.of(t)); });
 }
 
+/// Of the surfaces, screens and crowns, which let light pass.
+double share_of_screens(const Mesh& mesh, const MaterialsOfScene& of_season);
 /// Of the surfaces, what sends light on and is asked for the sun by rays where edges of shadows
 /// cross it (solver/sight/lit_shares.h).
 double share_that_sends_on_by_rays(const Mesh& mesh, const MaterialsOfScene& of_season,

@@ -31,17 +31,22 @@ std::map<WeatherSource, std::size_t> WeatherGaps::complete(
 
 std::size_t WeatherGaps::complete_dark(std::vector<DatedWeather>& weather) const {
   const Records records = dark(weather);
-  for (const std::size_t i : records)
-    for (const WeatherQuantity quantity : needed(source_))
-      weather[i].values.*quantity = (weather[i].values.*quantity).value_or(0);
+  for (const std::size_t i : records) put_zeros(weather[i].values);
   return records.size();
 }
 
 std::vector<DatedWeather> WeatherGaps::filled(const std::vector<DatedWeather>& weather) const {
   auto filled = fill_missing(weather, source_, study_.light.missing).weather;
-  for (const std::size_t i : dark(weather)) filled[i].values = weather[i].values;
-  complete_dark(filled);
+  for (const std::size_t i : dark(weather)) {
+    filled[i].values = weather[i].values;
+    put_zeros(filled[i].values);
+  }
   return filled;
+}
+
+void WeatherGaps::put_zeros(WeatherValues& values) const {
+  for (const WeatherQuantity quantity : needed(source_))
+    values.*quantity = (values.*quantity).value_or(0);
 }
 
 SunPath WeatherGaps::path_of(const std::vector<DatedWeather>& weather,

@@ -34,6 +34,8 @@ class WeatherGaps {
   using Records = std::vector<std::size_t>;
   /// The sun of some records.
   SunPath path_of(const std::vector<DatedWeather>& weather, const Records& records) const;
+  /// For what is lacking.
+  void put_zeros(WeatherValues& values) const;
   /// That lack values in the dark.
   Records dark(const std::vector<DatedWeather>& weather) const;
 

@@ -143,8 +143,7 @@ double asked_by_rays(const VariantPlan& plan, std::size_t patches) {
     const Mesh& mesh = plan.built.scene.mesh;
     const double sending =
         by_grid ? 0 : share_that_sends_on_by_rays(mesh, of_season, plan.study.solver.transport);
-    const auto lets_pass = [](const Material& m) { return m.transmittance > 0; };
-    const bool screens = share_of_surfaces(mesh, of_season, lets_pass) > 0;
+    const bool screens = share_of_screens(mesh, of_season) > 0;
     double left = screens ? share_behind_screens : 0;
     if (plan.study.sun.disk == SunDisk::finite) left = std::max(left, share_at_edges);
     return sending * std::max(left, share_at_edges) + (1 - sending) * left;

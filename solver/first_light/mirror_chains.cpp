@@ -3,7 +3,9 @@
 #include "solver/first_light/mirror_chains.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <utility>
 
 #include "solver/base/chunks.h"
 #include "solver/base/sampling.h"
@@ -318,12 +320,11 @@ MirrorChains::SentOn MirrorChains::follow(std::span<const IntervalLight> block,
   std::vector<SunOnMirrors> some;
   for (std::size_t k = 0; k < block.size(); ++k) {
     if (!block[k].has_sun() || block[k].dni <= 0) continue;
-    if (rules_.books_samples && beams[k].are_all(rules_.negligible))
-      some.push_back({k, mirrors_before(block[k], k, shares)});
-    else
+    if (!rules_.books_samples || !beams[k].are_all(rules_.negligible))
       each.push_back(k);
+    else if (PoweredMirrors mirrors = mirrors_before(block[k], k, shares); !mirrors.all().empty())
+      some.push_back({k, std::move(mirrors)});
   }
-  std::erase_if(some, [](const SunOnMirrors& sun) { return sun.mirrors.all().empty(); });
   SentOn sent;
   sent.fates.resize(into.realizations());
   follow_each(block, beams, shares, each, into, sent);

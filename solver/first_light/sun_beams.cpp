@@ -35,7 +35,7 @@ SunBeams::SunBeams(const MirrorGroups& groups, const IntervalLight& sun, const B
 void SunBeams::follow(std::vector<SunBeam> level) {
   while (!level.empty()) {
     if (beams_.size() + level.size() > static_cast<std::size_t>(rules_.most_beams)) {
-      leaves_out_ = has_too_many_ = true;
+      has_too_many_ = true;
       return;
     }
     const std::size_t begin = beams_.size();
@@ -87,7 +87,7 @@ std::vector<SunBeam> SunBeams::first_level(const IntervalLight& sun,
   std::size_t facing = 0;
   for (std::size_t g = 0; g < groups_->size(); ++g)
     if (strongest(g) > 0 && ++facing > static_cast<std::size_t>(rules_.most_beams)) {
-      leaves_out_ = has_too_many_ = true;
+      has_too_many_ = true;
       return level;
     }
   for (std::size_t g = 0; g < groups_->size(); ++g) {
@@ -121,7 +121,7 @@ std::vector<SunBeam> SunBeams::next_level(std::size_t begin) {
       const double strongest = beam.strongest * groups_->strongest(g, cos_theta);
       if (strongest <= 0) continue;
       if (strongest < rules_.faint_glint) {
-        leaves_out_ = true;
+        has_fainter_ = true;
         continue;
       }
       auto lit = section.lit(*groups_, g);

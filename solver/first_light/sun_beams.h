@@ -66,7 +66,7 @@ class SunBeams {
   double spread() const { return spread_; }
   /// Whether no way is left out that carries more than `negligible` of the sun.
   bool are_all(double negligible) const {
-    return !has_too_many_ && (!leaves_out_ || rules_.faint_glint <= negligible);
+    return !has_too_many_ && (!has_fainter_ || rules_.faint_glint <= negligible);
   }
   /// Beam that mirrors of `group` make of a beam (-1: of the sun); -1: none.
   std::int32_t next(std::int32_t beam, std::size_t group) const;
@@ -79,9 +79,8 @@ class SunBeams {
 
   const MirrorGroups* groups_;
   BeamRules rules_;
-  double spread_ = 0;        ///< tangent of the half angle of the sun's disk
-  bool leaves_out_ = false;  ///< reflections, as faint or as too many
-  bool has_too_many_ = false;
+  double spread_ = 0;  ///< tangent of the half angle of the sun's disk
+  bool has_fainter_ = false, has_too_many_ = false;  ///< reflections, which are left out
   std::vector<SunBeam> beams_;
   std::vector<std::pair<std::size_t, std::int32_t>> first_;
 };

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "solver/light/sun_block.h"
+#include "solver/light/transport.h"
 #include "solver/mesh/hierarchy.h"
 #include "solver/sight/sun_view.h"
 
@@ -29,9 +30,14 @@ namespace sunload {
 /// the rays that the light it sends on rests on, so that none is lost between the two; as_others:
 /// geometry, where no light is sent on by rays, or so little that the difference is none.
 enum class SendsOn { by_rays, as_others };
-/// Of the surfaces of a scene, by area: no more of them send on so little. What they receive is
-/// then a small share of all light, of which samples of the sun tell where it goes on to.
-inline constexpr double sending_as_others = 0.1;
+/// What tells it in a scene of whose surfaces such a share, by area, sends light on. No more than a
+/// tenth is little: samples of the sun tell where it goes on to. What is shot is told to the last
+/// sample.
+inline SendsOn asked_for_the_sun(double sending_share, Transport transport) {
+  constexpr double little = 0.1;
+  return transport == Transport::shoot || sending_share > little ? SendsOn::by_rays
+                                                                 : SendsOn::as_others;
+}
 
 /// Shares for any block of suns; const, and may be asked from any thread.
 class LitShares {

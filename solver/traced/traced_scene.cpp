@@ -98,12 +98,8 @@ DirectRules direct_rules(const SolverRules& rules) {
   return {.samples = rules.direct_samples, .realizations = rules.realizations, .seed = rules.seed};
 }
 
-/// How surfaces that send light on are asked for the sun. What is shot is told to the last sample.
-SendsOn asked_for_the_sun(const Scene& scene, const SolverRules& rules) {
-  const double sending =
-      area_share(scene.mesh, [&](std::size_t t) { return sends_on(scene.material_of(t)); });
-  return rules.transport == Transport::shoot || sending > sending_as_others ? SendsOn::by_rays
-                                                                            : SendsOn::as_others;
+double share_that_sends_on(const Scene& scene) {
+  return area_share(scene.mesh, [&](std::size_t t) { return sends_on(scene.material_of(t)); });
 }
 
 }  // namespace
@@ -119,7 +115,7 @@ TracedScene::TracedScene(const Scene& whole, std::shared_ptr<const Hierarchy> fr
       optics_of_band(optics_of_bands(whole, *mesh, optics, of_study.bands)),
       patches(SunSampler(*mesh, caster, direct_rules(of_study))),
       sensors(SunSampler(whole.sensors, caster, direct_rules(of_study))),
-      what_sends_on(asked_for_the_sun(whole, of_study)),
+      what_sends_on(asked_for_the_sun(share_that_sends_on(whole), of_study.transport)),
       lit_shares(whole, *mesh, caster.offset_m()),
       share_grid(lit_shares),
       mirrors(whole),

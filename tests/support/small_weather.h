@@ -86,4 +86,14 @@ inline std::string small_csv(const SmallStation& at = {}) {
   return text;
 }
 
+/// Rows of a CSV: hours of UTC from the 10th of a month of 2026 on, but for the two about the first
+/// midnight.
+inline std::string hours_without_midnight(int month, int hours) {
+  std::string rows;
+  for (int hour = 0; hour < hours; ++hour)
+    if (hour != 23 && hour != 24)
+      rows += fmt::format("2026-{:02}-{:02}T{:02}:00,100,40\n", month, 10 + hour / 24, hour % 24);
+  return rows;
+}
+
 }  // namespace sunload::test

@@ -230,13 +230,11 @@ TEST(Init, RowsThatAreMissingAreMadeOfTheirNeighbours) {
 /// Of a station in the far east: its noon is near midnight of UTC, which is no zone of its own.
 TEST(Init, RowsInUtcHaveTheDaysOfTheirStation) {
   const WorkFolder folder;
-  std::string csv =
-      "# latitude_deg: -34.9\n# longitude_deg: 138.6\n# utc_offset: +00:00\n"
-      "time,dni_w_m2,dhi_w_m2\n";
   // Noon is at 02:45 UTC: rows are missing in the morning, on both sides of midnight.
-  for (int hour = 0; hour < 48; ++hour)
-    if (hour != 23 && hour != 24)
-      csv += fmt::format("2026-01-{:02}T{:02}:00,100,40\n", 10 + hour / 24, hour % 24);
+  const std::string csv =
+      "# latitude_deg: -34.9\n# longitude_deg: 138.6\n# utc_offset: +00:00\n"
+      "time,dni_w_m2,dhi_w_m2\n" +
+      test::hours_without_midnight(1, 48);
   const auto [study, text] = begun(
       folder, {.model = folder.write("box.obj", box), .weather = folder.write("utc.csv", csv)});
   EXPECT_EQ(study.site.timezone, "Australia/Adelaide");

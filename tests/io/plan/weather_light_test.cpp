@@ -417,12 +417,10 @@ TEST(WeatherLight, DaylightThatHasNoRowIsNotTakenForDark) {
 
 /// Stamps in UTC: midnight there is ten in the morning in Sydney.
 TEST(WeatherLight, DaysOfAStationAreThoseOfItsSun) {
-  std::string text =
+  const std::string text =
       "# latitude_deg: -33.9\n# longitude_deg: 151.2\n# elevation_m: 20\n# utc_offset: +00:00\n"
-      "time,dni_w_m2,dhi_w_m2\n";
-  for (int h = 0; h < 72; ++h)
-    if (h != 23 && h != 24)
-      text += fmt::format("2026-12-{:02}T{:02}:00,100,40\n", 10 + h / 24, h % 24);
+      "time,dni_w_m2,dhi_w_m2\n" +
+      test::hours_without_midnight(12, 72);
   write_text("sydney.csv", text);
   const auto with = [](const std::string& missing) {
     return weather_study("timezone: Australia/Sydney", "year_of: weather",
