@@ -286,6 +286,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const bool of_few = is_year_of_few(plan);
   const YearNodes nodes = of_few ? year_nodes(plan) : YearNodes{};
   const double solved = of_few ? std::min(lit, seasons * (nodes.all() + solved_for_tests)) : lit;
+  // The bright sky about the sun is that of the nodes of the sun, and of the tests.
+  const double near_suns =
+      of_few ? std::min(lit, seasons * (nodes.suns + static_cast<double>(year_tests))) : solved;
   // Zero where there are none.
   const double node_bytes = bands * n * float_bytes * packed_share *
                             (nodes.suns + nodes.skies * (2.0 + (mirrors ? 1 : 0) + s.realizations));
@@ -304,7 +307,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       (shining * counts.direct_samples +
        (suns - shining) * static_cast<double>(net_size(counts.direct_samples, s.realizations)));
   const double circumsolar_rays = facing_share * circumsolar_receivers(plan, patches) *
-                                  std::min(solved, shining) * (of_few ? bands : 1) *
+                                  std::min(near_suns, shining) * (of_few ? bands : 1) *
                                   counts.direct_samples;
   const double luminaire_rays = seasons * n * luminaires_seen * counts.direct_samples *
                                 static_cast<double>(plan.built.scene.luminaires.all.size());
