@@ -25,6 +25,11 @@ constexpr std::size_t most_pairs = 500'000'000;
 
 }  // namespace
 
+double contact_of(const Mesh& mesh) {
+  const Box box = bounding_box(mesh.vertices);
+  return std::min(contact_m, contact_ratio * norm(box.high - box.low));
+}
+
 Covers::Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
                const std::vector<std::uint8_t>& seals, const std::vector<std::uint8_t>& emits,
                Cavities cavities)
@@ -35,8 +40,7 @@ Covers::Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::ui
       emits_(emits),
       cavities_(cavities),
       open_houses_(mesh, bodies, is_opaque) {
-  const Box box = bounding_box(mesh.vertices);
-  contact_ = std::min(contact_m, contact_ratio * norm(box.high - box.low));
+  contact_ = contact_of(mesh);
   same_place_ = same_place_m(mesh);
   find_bodies();
   find_land();

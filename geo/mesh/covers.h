@@ -19,6 +19,9 @@ namespace sunload {
 /// Hollows within closed bodies: rooms that a lamp may light, or filled for want of any.
 enum class Cavities { lit, dark };
 
+/// Surfaces this near to each other touch: contact_m, of small scenes less (geo/mesh/covered.h).
+double contact_of(const Mesh& mesh);
+
 /// Answers questions about single triangles and pairs of them, by their numbers in the mesh. Const,
 /// but counts the pairs that are visited.
 class Covers {

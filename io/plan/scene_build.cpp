@@ -14,6 +14,7 @@
 #include "io/plan/far_places.h"
 #include "io/plan/luminaires.h"
 #include "io/plan/material_assign.h"
+#include "io/plan/scene_cut.h"
 #include "io/plan/scene_doubts.h"
 #include "io/plan/scene_edit.h"
 #include "io/plan/scene_land.h"
@@ -264,6 +265,7 @@ BuiltScene scene_before_materials(const Study& study) {
   warn_of_no_land(study.scene, built.scene.mesh, built.warnings);
   built.seals = std::move(prepared.seals);
   built.facades = std::move(prepared.facades);
+  cut_at_selections(study.scene, built);
   return built;
 }
 
@@ -383,6 +385,8 @@ void give_materials(const Study& study, BuiltScene& built) {
   built.rules =
       assign_materials(study, {built.crs, built.site.north_deg}, built.scene, built.warnings);
   warn_of_reflectances(study, built);
+  if (const auto uncut = uncut_warning(study.scene, built); !uncut.empty())
+    built.warnings.push_back(uncut);
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
   built.scene.luminaires = place_luminaires(study.scene.luminaires, built.scene.mesh,
                                             built.report.bounds, built.warnings);

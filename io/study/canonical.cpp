@@ -347,7 +347,7 @@ json canonical(const LuminaireStudy& luminaire) {
 json canonical(const SceneStudy& scene) {
   const auto& [files, builtin, parallel_sources, parallel_sources_where, luminaires, up, unit_m,
                lod, vrml_colour, vrml_excess, emission_scale_w, repair, orient, materials, assign,
-               land, ground, edit, where] = scene;
+               land, cut, ground, edit, where] = scene;
   json canon{{"builtin", builtin ? canonical(*builtin) : json()},
              {"files", list_of(files)},
              {"up", up == 0 ? std::string() : std::string(1, up)},
@@ -361,6 +361,7 @@ json canonical(const SceneStudy& scene) {
              {"assign", list_of(assign)},
              {"ground", ground ? canonical(*ground) : json()}};
   if (!edit.empty()) canon["edit"] = list_of(edit);
+  for (const NamedSelection& selection : cut) canon["cut"].push_back(canonical(selection)["of"]);
   for (const LandName& name : land) canon["land"].push_back(name.pattern);
   if (!luminaires.empty()) canon["luminaires"] = list_of(luminaires);
   // What most studies refuse has no key: their hashes stay.

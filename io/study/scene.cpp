@@ -295,6 +295,8 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder) {
   map.each("assign", [&](YamlMap& rule) { scene.assign.push_back(read_rule(rule)); });
   for (auto& [text, where] : map.texts("land"))
     scene.land.push_back({std::move(text), std::move(where)});
+  for (auto& [name, where] : map.texts("cut"))
+    scene.cut.push_back({std::move(name), {}, std::move(where)});
   scene.ground = read_ground(map);
   scene.edit = read_scene_edit(map, folder);
   return scene;

@@ -394,6 +394,15 @@ void resolve_selections(YamlReading& reading, const std::vector<NamedSelection>&
     if (rule.selection)
       if (const auto* of = find(rule.selection->name, rule.selection->where))
         rule.selection->of = *of;
+  for (NamedSelection& selection : scene.cut) {
+    const auto* of = find(selection.name, selection.where);
+    if (of && !of->height_m && of->polygon.areas.empty())
+      reading.problem(selection.where,
+                      "selection '" + selection.name + "' has no ends to cut faces along",
+                      "these are the heights of height_m and the lines of polygon",
+                      "give it one of them, or leave it out");
+    if (of) selection.of = *of;
+  }
   for (EditStep& step : scene.edit) {
     if (!step.selection) continue;
     const auto* of = find(step.selection->name, step.selection->where);

@@ -342,6 +342,7 @@ struct SceneStudy {
   std::vector<MaterialStudy> materials;
   std::vector<AssignRule> assign;
   std::vector<LandName> land;         ///< objects that are terrain
+  std::vector<NamedSelection> cut;    ///< along whose ends faces are cut
   std::optional<GroundStudy> ground;  ///< absent: the default of the format
   std::vector<EditStep> edit;         ///< one after the other, before preparation
   Where where;

@@ -141,6 +141,13 @@ void check_day(const WeatherText& text, std::size_t line, const RowStamp& stamp)
 
 namespace {
 
+/// A row that is not later than the one before it, but would be if clocks had not gone back.
+bool clocks_go_back(const std::vector<DatedWeather>& instants, std::size_t row) {
+  if (row < 2) return false;
+  const double before = instants[row - 1].begin - instants[row - 2].begin;
+  return before - (instants[row].begin - instants[row - 1].begin) == seconds_per_hour;
+}
+
 /// The distance that most neighbours have.
 double usual_step_s(const WeatherText& text, const std::vector<DatedWeather>& instants) {
   std::map<double, std::size_t> counts;
@@ -149,7 +156,10 @@ double usual_step_s(const WeatherText& text, const std::vector<DatedWeather>& in
     if (apart < shortest_step_s)
       text.fail(static_cast<std::size_t>(instants[i].line),
                 "this row is not later than the row before it", "rows are in the order of time",
-                "sort the rows, each time once");
+                clocks_go_back(instants, i)
+                    ? "sort the rows, each time once; where these are civil times whose clocks go "
+                      "back here, write local standard time, or offsets from UTC such as +02:00"
+                    : "sort the rows, each time once");
     ++counts[std::round(apart / step_resolution_s) * step_resolution_s];
   }
   const auto most =

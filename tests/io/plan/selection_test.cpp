@@ -109,6 +109,54 @@ TEST_F(Selections, GiveMaterialsAndChooseSteps) {
   EXPECT_NEAR(red, 100, rounding_m2);
 }
 
+/// Area of a material.
+double area_of(const std::string& material, const BuiltScene& built) {
+  const Mesh& mesh = built.scene.mesh;
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (built.scene.material_of(t).name == material) sum += norm(mesh.area_vector2(t)) / 2;
+  return sum;
+}
+
+TEST_F(Selections, FacesAreCutAlongTheirEnds) {
+  const std::string low = "a: {surface: wall, height_m: [0, 3]}";
+  const std::string lawn =
+      "a: {surface: ground, polygon: [[-18, -15], [-2, -17], [-4, -8], [-17, -9]]}";
+  constexpr double of_lawn = 108.5;  // the shoelace formula
+  const std::string rule = "  assign: [{selection: a, material: red}]";
+  for (const auto& [selection, exact_m2] :
+       {std::pair{low, 2.0 * 4 * 10 * 3}, std::pair{lawn, of_lawn}}) {
+    const BuiltScene whole = build_scene(study(selection, rule));
+    EXPECT_GT(std::abs(area_of("red", whole) - exact_m2), 1) << selection;
+    ASSERT_FALSE(whole.warnings.empty());
+    EXPECT_NE(whole.warnings.back().find("scene.cut: [a] cuts faces"), std::string::npos)
+        << whole.warnings.back();
+    const BuiltScene cut = build_scene(study(selection, rule + "\n  cut: [a]"));
+    EXPECT_NEAR(area_of("red", cut), exact_m2, 1e-6) << selection;
+    for (const auto& warning : cut.warnings)
+      EXPECT_EQ(warning.find("scene.cut"), std::string::npos) << warning;
+    EXPECT_EQ(cut.report.open_edges, whole.report.open_edges);
+    EXPECT_EQ(cut.scene.mesh.facades.size(), whole.scene.mesh.facades.size());
+  }
+}
+
+TEST_F(Selections, CutsAreHashedByWhatTheyAre) {
+  const auto text = [&](const std::string& height) {
+    return canonical_text(study("a: {height_m: [0, " + height + "]}", "  cut: [a]"));
+  };
+  EXPECT_NE(text("3"), text("4"));
+  EXPECT_NE(text("3"), canonical_text(study("a: {height_m: [0, 3]}")));
+}
+
+TEST_F(Selections, WithoutEndsNothingCanBeCut) {
+  const std::string said = refusal_of([&] { study("a: {surface: wall}", "  cut: [a]"); });
+  EXPECT_NE(said.find("selection 'a' has no ends to cut faces along"), std::string::npos) << said;
+  EXPECT_NE(refusal_of([&] {
+              study("a: {surface: wall}", "  cut: [b]");
+            }).find("no selection is called 'b'"),
+            std::string::npos);
+}
+
 TEST_F(Selections, WhatTheyAreIsHashedWhereTheyAreUsed) {
   const std::string rule = "  assign: [{selection: a, material: red}]";
   const auto text = [&](const std::string& name, const std::string& of, const std::string& scene) {

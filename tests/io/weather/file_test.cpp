@@ -518,6 +518,16 @@ std::string shuffled(const std::string& text, std::mt19937& random) {
   return all;
 }
 
+TEST(WeatherCsv, CivilTimesOfAutumnAreToldWhatToWrite) {
+  const auto hint = [](const std::string& rows) {
+    return refused("a.csv", "time,ghi\n" + rows, Stamp::start).find("whose clocks go back here") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(hint("2026-10-25T01:00,0\n2026-10-25T02:00,0\n2026-10-25T02:00,0\n"));
+  EXPECT_TRUE(hint("2026-10-25T02:30,0\n2026-10-25T02:45,0\n2026-10-25T02:00,0\n"));
+  EXPECT_FALSE(hint("2026-10-25T02:30,0\n2026-10-25T02:45,0\n2026-10-25T02:30,0\n"));
+}
+
 TEST(BrokenWeather, IsRefusedAndNeverCrashes) {
   std::mt19937 random(5);
   int refusals = 0, read_anyway = 0;

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Faces cut along planes: nothing is lost, all parts lie on one side, and bodies stay closed.
+#include "geo/mesh/cut_faces.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "geo/mesh/covers.h"
+#include "tests/geo/mesh/mesh_prepare_models.h"
+
+namespace sunload::test {
+namespace {
+
+constexpr double rounding_of_cuts = 1e-9;  // m2, of areas of some hundred
+
+/// Of triangles that are wholly beyond a plane; every one must be on one side.
+double area_beyond(const Mesh& mesh, const FacePlane& plane) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    double low = infinity, high = -infinity;
+    for (int k = 0; k < 3; ++k) {
+      const double beyond = dot(plane.normal, mesh.corner(t, k)) - plane.offset;
+      low = std::min(low, beyond);
+      high = std::max(high, beyond);
+    }
+    EXPECT_FALSE(low < -contact_of(mesh) && high > contact_of(mesh)) << "triangle " << t;
+    if (low + high > 0) sum += norm(mesh.area_vector2(t)) / 2;
+  }
+  return sum;
+}
+
+void expect_whole_and_closed(const PreparedMesh& cut, double area_m2, double volume_m3) {
+  EXPECT_NEAR(area(cut.mesh), area_m2, rounding_of_cuts);
+  EXPECT_EQ(cut.bodies.triangle_body.size(), cut.mesh.triangle_count());
+  Mesh again = cut.mesh;
+  const Bodies bodies =
+      orient(again, std::vector<std::uint8_t>(again.triangle_count(), 0), Winding::keep);
+  EXPECT_EQ(bodies.open_edges, 0u);
+  EXPECT_EQ(bodies.nonmanifold_edges, 0u);
+  ASSERT_EQ(bodies.bodies.size(), 1u);
+  EXPECT_NEAR(bodies.bodies.front().volume, volume_m3, rounding_of_cuts);
+}
+
+PreparedMesh house() {
+  return ModelBuilder().object("house").box({0, 0, 0}, {10, 8, 6}).prepared();
+}
+constexpr double area_of_house = 2 * (10 * 8 + 10 * 6 + 8 * 6), volume_of_house = 10 * 8 * 6;
+
+TEST(CutFaces, AtAHeightWallsHaveTwoParts) {
+  PreparedMesh cut = house();
+  FacePlane plane;
+  plane.offset = 4;
+  const std::size_t before = cut.mesh.triangle_count();
+  const auto source = cut_faces(cut.mesh, cut.bodies, [&](std::size_t) { return plane; });
+  EXPECT_EQ(source.size(), cut.mesh.triangle_count());
+  EXPECT_GT(source.size(), before);
+  expect_whole_and_closed(cut, area_of_house, volume_of_house);
+  EXPECT_NEAR(area_beyond(cut.mesh, plane), 2 * (10 + 8) * 2 + 80, rounding_of_cuts);
+}
+
+TEST(CutFaces, SlantingPlanesOfTheirOwnCutEveryTriangle) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int trial = 0; trial < 20; ++trial) {
+    PreparedMesh cut = house();
+    std::vector<FacePlane> planes(cut.mesh.triangle_count());
+    for (FacePlane& plane : planes) {
+      plane.normal = normalized(Vec3{any(random), any(random), any(random)});
+      plane.offset = dot(plane.normal, Vec3{5, 4, 3}) + any(random);
+    }
+    const auto source = cut_faces(cut.mesh, cut.bodies, [&](std::size_t t) { return planes[t]; });
+    expect_whole_and_closed(cut, area_of_house, volume_of_house);
+    for (std::size_t t = 0; t < source.size(); ++t) {
+      const FacePlane& plane = planes[source[t]];
+      double low = infinity, high = -infinity;
+      for (int k = 0; k < 3; ++k) {
+        const double beyond = dot(plane.normal, cut.mesh.corner(t, k)) - plane.offset;
+        low = std::min(low, beyond);
+        high = std::max(high, beyond);
+      }
+      EXPECT_FALSE(low < -contact_of(cut.mesh) && high > contact_of(cut.mesh));
+    }
+  }
+}
+
+TEST(CutFaces, OnlyWhatLiesBetweenTheEndsIsCut) {
+  FacePlane plane;
+  plane.normal = {0, 1, 0};
+  plane.offset = 4;
+  plane.along = {1, 0, 0};
+  plane.from = 12;  // beyond the house
+  plane.to = 20;
+  PreparedMesh cut = house();
+  const auto triangles = cut.mesh.triangles;
+  cut_faces(cut.mesh, cut.bodies, [&](std::size_t) { return plane; });
+  EXPECT_EQ(cut.mesh.triangles, triangles);
+  plane.from = 9.5;  // the east wall, and what of top and bottom it meets
+  cut_faces(cut.mesh, cut.bodies, [&](std::size_t) { return plane; });
+  EXPECT_GT(cut.mesh.triangle_count(), triangles.size());
+  expect_whole_and_closed(cut, area_of_house, volume_of_house);
+  for (std::size_t t = 0; t < cut.mesh.triangle_count(); ++t) {
+    const bool is_west = cut.mesh.corner(t, 0).x == 0 && cut.mesh.corner(t, 1).x == 0 &&
+                         cut.mesh.corner(t, 2).x == 0;
+    if (is_west) {
+      EXPECT_NEAR(norm(cut.mesh.area_vector2(t)) / 2, 24, rounding_of_cuts);
+    }
+  }
+}
+
+TEST(CutFaces, ThroughCornersAndAlongEdgesNothingIsCut) {
+  FacePlane plane;
+  PreparedMesh cut = house();
+  const auto triangles = cut.mesh.triangles;
+  for (const double height : {0.0, 1e-4, 6.0, 6.0 - 1e-4, 7.0}) {
+    plane.offset = height;
+    cut_faces(cut.mesh, cut.bodies, [&](std::size_t) { return plane; });
+    EXPECT_EQ(cut.mesh.triangles, triangles) << height;
+  }
+}
+
+}  // namespace
+}  // namespace sunload::test
