@@ -3,6 +3,7 @@
 #include "geo/mesh/feet.h"
 
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <string_view>
 
@@ -28,7 +29,7 @@ bool is_building(const std::string& kind) {
 
 struct LowerEdge {
   std::array<std::int32_t, 2> ends;
-  std::size_t wall;  // the triangle above
+  std::size_t wall;  // the triangle above; no_wall: one that looks down ends here alone
 };
 
 double low_of(const Mesh& mesh, const LowerEdge& e) {
@@ -73,7 +74,11 @@ bool are_near(const Foot& one, const Foot& other, double distance) {
 class FootFinder {
  public:
   FootFinder(const Mesh& mesh, const Bodies& bodies, SceneKind kind)
-      : mesh_(mesh), bodies_(bodies), kind_(kind), feet_(bodies.bodies.size()) {
+      : mesh_(mesh),
+        bodies_(bodies),
+        kind_(kind),
+        floor_high_(bodies.bodies.size(), -infinity),
+        feet_(bodies.bodies.size()) {
     has_feet_.resize(mesh.object_names.size());
     for (std::size_t o = 0; o < has_feet_.size(); ++o) {
       const std::string& of = mesh.object_kinds[o];
@@ -89,6 +94,7 @@ class FootFinder {
     std::erase_if(
         feet_, [&](const Foot& foot) { return foot.edges.empty() || is_low_without_type(foot); });
     find_stacked();
+    for (Foot& foot : feet_) find_rims(foot);
     find_hovering();
     return std::move(feet_);
   }
@@ -146,7 +152,12 @@ class FootFinder {
         wall = t;
         corner = use.corner();
       }
-      if (wall == mesh_.triangle_count()) return;
+      if (wall == mesh_.triangle_count()) {
+        if (uses.size() > 1) return;
+        const auto body = bodies_.triangle_body[uses[0].triangle()];
+        lower_[static_cast<std::size_t>(body)].push_back({{uses[0].low, uses[0].high}, no_wall});
+        return;
+      }
       lower_[static_cast<std::size_t>(bodies_.triangle_body[wall])].push_back(
           {{mesh_.triangles[wall][corner], mesh_.triangles[wall][(corner + 1) % 3]}, wall});
     });
@@ -160,18 +171,40 @@ class FootFinder {
     return p.z > a.z + s * (b.z - a.z);
   }
 
-  /// Edges at the foot, and what is reached from there.
+  /// Edges at the foot, and what is reached from there, also where walls are missing.
   void take_foot(std::size_t b) {
     const Body& body = bodies_.bodies[b];
     auto& lower = lower_[b];
-    if (lower.empty() || body.is_inside_out || (body.is_closed && body.volume < 0)) return;
+    const auto has_wall = [](const LowerEdge& e) { return e.wall != no_wall; };
+    if (std::none_of(lower.begin(), lower.end(), has_wall) || body.is_inside_out ||
+        (body.is_closed && body.volume < 0)) {
+      lower.clear();
+      return;
+    }
     const bool is_house = body.is_closed || has_roof_[b] != 0;
     double low = low_of_object_[body.object.index()];
     if (is_house) {
       low = infinity;
-      for (const auto& e : lower) low = std::min(low, low_of(mesh_, e));
+      for (const auto& e : lower)
+        if (has_wall(e)) low = std::min(low, low_of(mesh_, e));
     }
-    const double foot = low + foot_tolerance(body.box.high.z - body.box.low.z);
+    keep_reached(lower, low + foot_tolerance(body.box.high.z - body.box.low.z));
+    for (const auto& e : lower)
+      for (const auto v : e.ends) floor_high_[b] = std::max(floor_high_[b], at(v).z);
+    std::erase_if(lower, [&](const LowerEdge& e) { return !has_wall(e); });
+    for (const auto& e : lower) {
+      feet_[b].edges.push_back({at(e.ends[0]), at(e.ends[1])});
+      feet_[b].walls.push_back(e.wall);
+      for (const auto v : e.ends) {
+        Box& box = feet_[b].box;
+        const Vec3 p = at(v);
+        include(box, p);
+      }
+    }
+  }
+
+  /// Those below walls that are no higher than the foot, and all that hang together with them.
+  void keep_reached(std::vector<LowerEdge>& lower, double foot) const {
     std::vector<std::pair<std::int32_t, std::size_t>> edges_at;
     for (std::size_t e = 0; e < lower.size(); ++e)
       for (const auto v : lower[e].ends) edges_at.emplace_back(v, e);
@@ -179,7 +212,7 @@ class FootFinder {
     std::vector<std::uint8_t> is_taken(lower.size(), 0);
     std::vector<std::size_t> open;
     for (std::size_t e = 0; e < lower.size(); ++e) {
-      if (low_of(mesh_, lower[e]) > foot) continue;
+      if (lower[e].wall == no_wall || low_of(mesh_, lower[e]) > foot) continue;
       is_taken[e] = 1;
       open.push_back(e);
     }
@@ -199,15 +232,6 @@ class FootFinder {
     for (std::size_t e = 0; e < lower.size(); ++e)
       if (is_taken[e]) lower[kept++] = lower[e];
     lower.resize(kept);
-    for (const auto& e : lower) {
-      feet_[b].edges.push_back({at(e.ends[0]), at(e.ends[1])});
-      feet_[b].walls.push_back(e.wall);
-      for (const auto v : e.ends) {
-        Box& box = feet_[b].box;
-        const Vec3 p = at(v);
-        include(box, p);
-      }
-    }
   }
 
   /// Floors, and bodies that have another one below most of their foot.
@@ -223,7 +247,8 @@ class FootFinder {
       if (slope == Slope::downward && b >= 0 && foot_of[static_cast<std::size_t>(b)] >= 0) {
         Foot& foot = feet_[static_cast<std::size_t>(foot_of[static_cast<std::size_t>(b)])];
         const Box box = box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
-        if (box.high.z <= foot.box.high.z + level_m) foot.floors.push_back(t);
+        if (box.high.z <= floor_high_[static_cast<std::size_t>(b)] + level_m)
+          foot.floors.push_back(t);
       }
       if (slope != Slope::upward || mesh_.triangle_surface[t] == Surface::ground ||
           is_land(mesh_.object_kinds[mesh_.triangle_object[t].index()]))
@@ -250,6 +275,23 @@ class FootFinder {
       }
       if (supported > half * all) foot.stance = Stance::body;
     }
+  }
+
+  /// Edges that one floor has alone, but for those with a wall above: party walls are missing in
+  /// many models, and where a neighbour has been taken away.
+  void find_rims(Foot& foot) const {
+    using Edge = std::array<std::int32_t, 2>;
+    const auto edge = [](std::int32_t a, std::int32_t b) {
+      return Edge{std::min(a, b), std::max(a, b)};
+    };
+    std::map<Edge, int> uses;
+    for (const auto t : foot.floors)
+      for (std::size_t k = 0; k < 3; ++k)
+        ++uses[edge(mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3])];
+    for (const LowerEdge& e : lower_[static_cast<std::size_t>(foot.body)])
+      uses.erase(edge(e.ends[0], e.ends[1]));
+    for (const auto& [ends, count] : uses)
+      if (count == 1) foot.rims.push_back({at(ends[0]), at(ends[1])});
   }
 
   /// Of feet that no land can join those with most area against them, one after the other.
@@ -300,6 +342,7 @@ class FootFinder {
   std::vector<std::uint8_t> has_feet_, has_roof_;  // per object, per body
   std::vector<double> low_of_object_;
   std::vector<std::vector<LowerEdge>> lower_;  // per body
+  std::vector<double> floor_high_;             // per body: of edges at the foot, and rims of floors
   std::vector<Foot> feet_;
 };
 

@@ -44,7 +44,8 @@ struct Foot {
   Stance stance = Stance::ground;
   std::vector<std::array<Vec3, 2>> edges;  ///< as the walls above walk them
   std::vector<std::size_t> walls;          ///< the triangle above each edge
-  std::vector<std::size_t> floors;         ///< downward triangles no higher than its edges
+  std::vector<std::size_t> floors;         ///< downward triangles no higher than edges and rims
+  std::vector<std::array<Vec3, 2>> rims;   ///< ends of the floors where no wall stands on them
   Box box;                                 ///< of the edges
   double plan_m2 = 0;                      ///< of what looks up or down, the larger
 };

@@ -110,14 +110,17 @@ class GroundMaker {
     const PlanTriangles terrain(mesh_, terrain_);
     for (const Foot& foot : feet_) {
       if (!stands(foot)) continue;
-      for (Segment edge : foot.edges) {
-        if (!is_plate() && terrain.covers((edge[0] + edge[1]) / 2)) continue;
-        if (level_z_)
-          for (Vec3& end : edge) end.z = *level_z_;
-        lines_.feet.push_back(edge);
-        lines_.foot_body.push_back(foot.body);
-      }
+      for (const auto* edges : {&foot.edges, &foot.rims})
+        for (const Segment& edge : *edges) add_line(edge, foot.body, terrain);
     }
+  }
+
+  void add_line(Segment edge, std::int32_t body, const PlanTriangles& terrain) {
+    if (!is_plate() && terrain.covers((edge[0] + edge[1]) / 2)) return;
+    if (level_z_)
+      for (Vec3& end : edge) end.z = *level_z_;
+    lines_.feet.push_back(edge);
+    lines_.foot_body.push_back(body);
   }
 
   bool is_plate() const { return rules_.surface == GroundSurface::level; }
@@ -294,7 +297,8 @@ class GroundMaker {
       const bool is_terrain = terrain.covers(middle);
       if (is_terrain && !is_plate()) continue;
       wanted.emplace_back(t, is_terrain || under.covers(middle) ||
-                                 others.is_on(middle, land_snap_m) || is_enclosed(middle, of_feet));
+                                 is_wholly_on(others, {at(0), at(1), at(2)}) ||
+                                 is_enclosed(middle, of_feet));
     }
     std::vector<std::int32_t> new_index(land.points.size(), -1);
     for (auto& [t, is_covered] : wanted) {
@@ -308,6 +312,15 @@ class GroundMaker {
       }
       add(t, is_covered);
     }
+  }
+
+  /// By its corners, the middles of its edges and its own. Their rims are no lines of the land:
+  /// what lies on them in part is cut where it is covered (geo/mesh/covered.h).
+  static bool is_wholly_on(const PlanTriangles& others, const std::array<Vec3, 3>& corners) {
+    const auto& [a, b, c] = corners;
+    const std::array places{(a + b + c) / 3, (a + b) / 2, (b + c) / 2, (c + a) / 2, a, b, c};
+    return std::all_of(places.begin(), places.end(),
+                       [&](Vec3 p) { return others.is_on(p, land_snap_m); });
   }
 
   /// Inside the ring of a foot that has no floor: an odd number of its edges on either side.

@@ -227,6 +227,40 @@ TEST(Ground, HousesWithoutFloorsCoverTheGround) {
   EXPECT_NEAR(plan_area(p.mesh, true), 200, 1e-6);
 }
 
+// Terraces are often written without party walls, and neighbours of what is taken away have none.
+TEST(Ground, FloorsWhoseWallsAreMissingCoverWhatLiesUnderThemAlone) {
+  const auto faces = ModelBuilder::box_faces({0, 0, 0}, {20, 10, 6});  // two level ones, four walls
+  for (const double slope : {0.0, 0.1})
+    for (unsigned missing = 0; missing < 15; ++missing) {
+      auto builder = ModelBuilder().object("house");
+      for (std::size_t k = 0; k < faces.size(); ++k)
+        if (k < 2 || (missing >> (k - 2) & 1) == 0) builder.ring(faces[k]);
+      builder.moved([&](Vec3 p) { return Vec3{p.x, p.y, p.z + slope * p.x}; });
+      const auto p = builder.prepared(on_feet(10));
+      EXPECT_NEAR(plan_area(p.mesh, true), 200, 1e-6)
+          << "slope " << slope << " without " << missing;
+      EXPECT_NEAR(plan_area(p.mesh, false), 40 * 30 - 200, 1e-6);
+    }
+}
+
+// A square that the model has as an object covers the land that lies on it, and no more.
+TEST(Ground, BesideSquaresOfTheModelTheLandIsOpen) {
+  auto builder = ModelBuilder().object("a").box({0, 0, 0}, {10, 10, 6});
+  builder.object("b").box({40, 0, 0}, {50, 10, 6});
+  builder.object("square").with(Surface::other);
+  builder.ring({{18, 2, 0}, {33, 1, 0}, {30, 9, 0}, {19, 8, 0}});
+  auto p = builder.prepared(on_feet(10));
+  const double square =
+      (18 * 1 - 33 * 2 + 33 * 9 - 30 * 1 + 30 * 8 - 19 * 9 + 19 * 2 - 18 * 8) / 2.0;
+  cut_covered(p.mesh, p.bodies, std::vector<std::uint8_t>(p.mesh.triangle_count(), 1), p.seals);
+  double open = 0;
+  for (std::size_t t = 0; t < p.mesh.triangle_count(); ++t)
+    if (p.mesh.bears_patches(t) && p.mesh.corner(t, 0).z == 0 && p.mesh.corner(t, 1).z == 0 &&
+        p.mesh.corner(t, 2).z == 0)
+      open += p.mesh.area_vector2(t).z / 2;
+  EXPECT_NEAR(open, 70 * 30 - 200, 1e-6) << square;
+}
+
 TEST(Ground, ACourtyardIsOpenGround) {
   auto builder = ModelBuilder().city().object("block", "Building");
   const std::vector<Vec3> outer{{0, 0, 1}, {30, 0, 1}, {30, 30, 1}, {0, 30, 1}};
