@@ -71,8 +71,11 @@ void add_rows(BatchWriter& writer, const std::string& prefix, const ArraySpec& s
   ArraySpec of = spec;
   of.name = prefix + spec.name;
   const auto& rows = stored.steps.rows;
+  // The result does not keep intervals beside steps: measures watch them, with all bits.
+  if (!rows.empty()) of.mantissa_bits = all_mantissa_bits;
   if (is_kept(spec.name)) writer.add(of, series);
   if (rows.empty() || !is_kept(step_prefix + spec.name)) return;
+  of.mantissa_bits = spec.mantissa_bits;
   of.name = prefix + step_prefix + spec.name;
   of.rule = MergeRule::step;
   of.type = ArrayType::float64;

@@ -341,6 +341,9 @@ class ModelWriter {
 
 void write_model_with_values(const ResultReader& result, const ExportRules& rules,
                              const ExportTarget& target) {
+  if (result.is_derived())
+    throw InputError({result.path()}, "holds no study", "--model gives values back to its model",
+                     "name the result of one variant, or leave --model out");
   try {
     ModelWriter writer(result, rules);
     writer.write(target.stream);

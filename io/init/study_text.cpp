@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "geo/mesh/ground.h"
 #include "geo/sun/weather.h"
 #include "geo/time/time.h"
 #include "io/base/data_folder.h"
@@ -252,8 +253,10 @@ std::string file_text(const InitRules& rules, const std::string& folder) {
 
 std::string ground_text(const Findings& found) {
   if (found.is_city_format)
-    return "  # The ground that buildings stand on goes through their feet and beyond them.\n"
-           "  ground: {margin_m: 30, material: paving}\n";
+    return fmt::format(  // as it was looked at
+        "  # The ground that buildings stand on goes through their feet and beyond them.\n"
+        "  ground: {{margin_m: {:.0f}, material: paving}}\n",
+        GroundRules{}.margin_m);
   if (found.has_ground || found.is_raster)
     return "  # The file has its own ground.\n  ground: none\n";
   constexpr double percent = 100;

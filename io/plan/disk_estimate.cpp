@@ -48,9 +48,10 @@ SeriesBytes series_bytes(const VariantPlan& plan, double series, double value_by
   double watched = 0;
   for (std::size_t p = 0; p < part_count; ++p)
     watched += is_watched(plan.study, static_cast<Part>(p)) ? 1 : 0;
-  return {of_steps + watched * batch * value_bytes,
-          series * (static_cast<double>(series_step_rows) * float_bytes + double_bytes),
-          batches * of_steps + watched * lit * value_bytes + steps * series * value_bytes};
+  return {
+      of_steps + watched * batch * stored_bytes_per_value,
+      series * (static_cast<double>(series_step_rows) * float_bytes + double_bytes),
+      batches * of_steps + watched * lit * stored_bytes_per_value + steps * series * value_bytes};
 }
 
 double prepared_bytes(const VariantPlan& plan, double patches, double lines_per_patch, bool guided,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/run/measure_merge.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +14,7 @@
 #include "io/base/light_quantity.h"
 #include "io/batch/batch_tally.h"
 #include "io/measure/rules.h"
+#include "io/plan/stored_bits.h"
 #include "io/result/schema.h"
 
 namespace sunload {
@@ -106,9 +109,17 @@ std::string when_of(const StudyMeasure& of) {
       .substr(0, std::string("2026-03-21").size());
 }
 
-MeasureAttributes attributes_of(const StudyMeasure& of) {
+/// What is said of values that are not watched as they are; empty where they are.
+std::string rounding_words(const StudyMeasure& of, const VariantPlan& plan) {
+  const int bits = stored_bits(plan.study);
+  if (of.measure->series().empty() || !plan.steps.empty() || bits == float_mantissa_bits) return {};
+  return fmt::format("; of values rounded to {} bits ({:.2g} %)", bits,
+                     100 * std::exp2(-(bits + 1)));
+}
+
+MeasureAttributes attributes_of(const StudyMeasure& of, const VariantPlan& plan) {
   MeasureAttributes a;
-  a.text = {{"definition", definition_of(*of.rule, of.parameters)},
+  a.text = {{"definition", definition_of(*of.rule, of.parameters) + rounding_words(of, plan)},
             {"source", of.rule->source},
             {"rule", of.rule->word},
             {"parameters", measure_text(of.parameters)}};
@@ -155,7 +166,7 @@ void MeasureMerge::write(ResultWriter& writer) {
 void MeasureMerge::write_one(ResultWriter& writer, const StudyMeasure& of) const {
   const MeasureValues found = of.measure->values();
   const std::string name = "measure_" + of.parameters.name;
-  const MeasureAttributes attributes = attributes_of(of);
+  const MeasureAttributes attributes = attributes_of(of, plan_);
   const std::size_t n = of.patches.size();
   const auto put = [&](const std::string& suffix, const std::vector<double>& values,
                        const std::string& units) {

@@ -348,7 +348,8 @@ NamedSelection read_selection(const std::string& name, YamlMap& map, const std::
   if (!is_dataset_name(name) && map.is_usable() && name != "*")
     map.reading().problem(map.where(), "'" + name + "' cannot be the name of a selection",
                           "results have it", "letters A to Z, digits and _ make names");
-  if (!of.chooses() && map.is_usable())
+  const bool has_ends = map.has("azimuth_deg") || map.has("height_m");  // right or wrong
+  if (!of.chooses() && !has_ends && map.is_usable())
     map.reading().problem(map.where(), map.path("object") + ": the selection chooses nothing",
                           "it needs object, type, facade, surface, azimuth_deg, height_m, polygon "
                           "or near",

@@ -5,6 +5,7 @@
 import argparse
 import csv
 import os
+import signal
 import sys
 
 import matplotlib
@@ -183,6 +184,8 @@ def default_output(result, name):
 
 def run(main):
     """Exit codes as the program's: 2 where the input is wrong, 3 where a file cannot be written."""
+    # By way of what removes half-written files.
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     try:
         main(sys.argv[1:])
     except InputError as error:

@@ -29,7 +29,8 @@ std::string three_days(const std::string& name, const std::string& output,
          " lamp: {diffuse: 0.1, emission_w_m2: 200}}}\n"
          "mesh: {oracle: none, max_edge_m: 4}\n"
          "sensors: {points: [{position_m: [0, 0, 1.5], normal: [0, 0, 1]}]}\n"
-         "measures: {bright: {rule: light_hours, above_w_m2: 100, light: direct}}\n"
+         "measures: {bright: {rule: light_hours, above_w_m2: 100, light: direct}, "
+         "peak: {rule: peak_light}}\n"
          "solver: {lines_per_patch: 64, realizations: 8, batch_suns: 10" +
          solver + "}\noutput: {folder: results, series: [total, direct]" + output + "}\n";
 }
@@ -123,6 +124,20 @@ TEST(SeriesSteps, LeaveAllElseAsItIs) {
       EXPECT_TRUE(name == "study_yaml" || (!shape.empty() && shape.front() == 71U)) << name;
     }
   EXPECT_TRUE(ResultReader(days()).has("measure_bright"));
+  EXPECT_TRUE(ResultReader(days()).has("measure_peak"));
+}
+
+// Measures of a result that stores intervals see what it stores, and say so.
+TEST(SeriesSteps, RoundedIntervalsAreToldByMeasures) {
+  const std::string rounded =
+      folder_with("rounded", ", significant_bits: 8") / result_of("rounded");
+  const auto definition = [](const std::string& path) {
+    return ResultReader(path).text_attribute("sensor_measure_peak", "definition");
+  };
+  EXPECT_NE(definition(rounded).find("of values rounded to 8 bits (0.2 %)"), std::string::npos)
+      << definition(rounded);
+  for (const std::string& exact : {intervals(), fours()})
+    EXPECT_EQ(definition(exact).find("rounded"), std::string::npos) << exact;
 }
 
 TEST(SeriesSteps, AreTheSameBitsInShards) {

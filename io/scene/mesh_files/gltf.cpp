@@ -49,13 +49,17 @@ double number_of(const json& object, const char* key, double otherwise) {
 }
 
 /// A unit quaternion (x, y, z, w) as axes.
-Affine rotation(const std::vector<double>& q) {
-  const double x = q[0], y = q[1], z = q[2], w = q[3];
+Affine rotation(const std::array<double, 4>& q) {
+  const auto [x, y, z, w] = q;
   return {{Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
            Vec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
            Vec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}},
           {}};
 }
+
+Affine scaling(Vec3 s) { return {{Vec3{s.x, 0, 0}, Vec3{0, s.y, 0}, Vec3{0, 0, s.z}}, {}}; }
+
+constexpr const char* instancing = "EXT_mesh_gpu_instancing";
 
 class GltfReader {
  public:
@@ -81,7 +85,8 @@ class GltfReader {
       // Those of materials change nothing but looks.
       const bool is_fine = text.starts_with("KHR_materials_") || text == "KHR_texture_transform" ||
                            text == "KHR_mesh_quantization" || text == "KHR_lights_punctual" ||
-                           text == "KHR_texture_basisu" || text == "EXT_texture_webp";
+                           text == "KHR_texture_basisu" || text == "EXT_texture_webp" ||
+                           text == instancing;
       if (!is_fine)
         file_.fail("requires the extension " + text, "it is not read",
                    "export the model without it, for example uncompressed");
@@ -125,10 +130,10 @@ class GltfReader {
     const auto name = name_of(node).empty() ? outer_name : name_of(node);
     if (node.contains("mesh")) {
       if (node.contains("skin")) faces_.notes().count("skins ignored");
-      add_mesh(file_.entry("meshes", node["mesh"]), file_from_node, name);
+      const auto& mesh = file_.entry("meshes", node["mesh"]);
+      for (const Affine& node_from_mesh : instances_of(node))
+        add_mesh(mesh, file_from_node * node_from_mesh, name);
     }
-    if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing"))
-      faces_.notes().count("instances by EXT_mesh_gpu_instancing left out");
     for (const auto& child : children_of(node)) visit(child, file_from_node, name, depth + 1);
   }
 
@@ -154,14 +159,43 @@ class GltfReader {
     if (node.contains("rotation")) {
       const auto q = numbers_of(node, "rotation", 4);
       if (!q) refuse("rotation");
-      all = all * rotation(*q);
+      all = all * rotation({(*q)[0], (*q)[1], (*q)[2], (*q)[3]});
     }
     if (node.contains("scale")) {
       const auto s = numbers_of(node, "scale", 3);
       if (!s) refuse("scale");
-      all = all * Affine{{Vec3{(*s)[0], 0, 0}, Vec3{0, (*s)[1], 0}, Vec3{0, 0, (*s)[2]}}, {}};
+      all = all * scaling({(*s)[0], (*s)[1], (*s)[2]});
     }
     return all;
+  }
+
+  /// Where the mesh of a node stands in it: once, or as EXT_mesh_gpu_instancing says, each time
+  /// T·R·S.
+  std::vector<Affine> instances_of(const json& node) {
+    const auto extensions = node.value("extensions", json());
+    if (!extensions.is_object() || !extensions.contains(instancing)) return {Affine{}};
+    const auto attributes = extensions[instancing].value("attributes", json::object());
+    std::optional<std::size_t> count;
+    std::vector<Affine> all;
+    const auto take = [&](const char* key, const auto& read, const auto& placed) {
+      if (!attributes.contains(key)) return;
+      const auto values = read(attributes[key]);
+      if (count && *count != values.size())
+        file_.fail("has instances of two numbers", fmt::format("{} and {}", *count, values.size()));
+      count = values.size();
+      all.resize(values.size());
+      for (std::size_t i = 0; i < values.size(); ++i) all[i] = all[i] * placed(values[i]);
+    };
+    const auto points = [&](const json& accessor) { return file_.points(accessor); };
+    take("TRANSLATION", points, [](Vec3 t) {
+      Affine moved;
+      moved.origin = t;
+      return moved;
+    });
+    take(
+        "ROTATION", [&](const json& accessor) { return file_.quaternions(accessor); }, rotation);
+    take("SCALE", points, scaling);
+    return count ? all : std::vector<Affine>{Affine{}};
   }
 
   void add_mesh(const json& mesh, const Affine& file_from_mesh, const std::string& node_name) {

@@ -213,7 +213,8 @@ const std::string& GltfFile::buffer(const json& index) {
 std::vector<double> GltfFile::numbers(const json& index, const std::string& type) {
   const auto& accessor = entry("accessors", index);
   const std::string name = "accessor " + index.dump();
-  if (accessor.contains("sparse")) fail(name + " is sparse", "such accessors are not read");
+  if (accessor.contains("sparse"))
+    fail(name + " is sparse", "such accessors are not read", "export the model without them");
   if (accessor.value("type", json()) != type) fail(name + " is no " + type);
   const auto component_type = whole(accessor, "componentType");
   const auto* component =
@@ -224,7 +225,7 @@ std::vector<double> GltfFile::numbers(const json& index, const std::string& type
   const auto& view = entry("bufferViews", accessor.value("bufferView", json()));
   const auto view_offset = whole(view, "byteOffset"), length = whole(view, "byteLength");
   const auto stated_stride = whole(view, "byteStride");
-  const std::size_t width = type == "VEC3" ? 3 : 1;
+  const std::size_t width = type == "VEC4" ? 4 : type == "VEC3" ? 3 : 1;
   const std::size_t size = width * component->bytes;
   const auto& bytes = buffer(view.value("buffer", json()));
   if (!count || !offset || !view_offset || !length || !stated_stride ||
@@ -256,6 +257,15 @@ std::vector<Vec3> GltfFile::points(const json& accessor) {
   for (std::size_t i = 0; i < values.size(); i += 3)
     points.push_back({values[i], values[i + 1], values[i + 2]});
   return points;
+}
+
+std::vector<std::array<double, 4>> GltfFile::quaternions(const json& accessor) {
+  const auto values = numbers(accessor, "VEC4");
+  std::vector<std::array<double, 4>> all;
+  all.reserve(values.size() / 4);
+  for (std::size_t i = 0; i < values.size(); i += 4)
+    all.push_back({values[i], values[i + 1], values[i + 2], values[i + 3]});
+  return all;
 }
 
 std::vector<std::int32_t> GltfFile::indices(const json& accessor, std::size_t count) {

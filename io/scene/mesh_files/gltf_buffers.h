@@ -3,6 +3,7 @@
 /// The numbers of a glTF file: containers, buffers, views, accessors.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -30,6 +31,8 @@ class GltfFile {
 
   /// Points of an accessor of type VEC3.
   std::vector<Vec3> points(const nlohmann::json& accessor);
+  /// Quaternions (x, y, z, w) of an accessor of type VEC4.
+  std::vector<std::array<double, 4>> quaternions(const nlohmann::json& accessor);
   /// Indices of an accessor of type SCALAR, each below `count`.
   std::vector<std::int32_t> indices(const nlohmann::json& accessor, std::size_t count);
 

@@ -237,6 +237,47 @@ TEST(SceneGltf, NodesMaterialsAndAxes) {
   EXPECT_EQ(broken_arrays(model), "");
 }
 
+// EXT_mesh_gpu_instancing: a row of trees is one mesh and a place for each.
+TEST(SceneGltf, InstancesStandWhereTheirNodeSays) {
+  const auto with = [](const std::string& attributes, const std::string& accessor_type = "VEC4",
+                       std::size_t count = 4) {
+    std::string turns;  // none, none, half about z, none
+    for (const int k : {0, 1, 2, 3})
+      for (const float q : {0.f, 0.f, k == 2 ? 1.f : 0.f, k == 2 ? 0.f : 1.f})
+        turns += bytes_of(q, std::endian::little);
+    auto text = gltf(R"({"name": "row", "mesh": 0, "translation": [0, 0, 5], "extensions":
+        {"EXT_mesh_gpu_instancing": {"attributes": {)" +
+                     attributes + "}}}}");
+    const auto insert = [&](const std::string& before, const std::string& what) {
+      text.insert(text.find(before), what);
+    };
+    insert("],\n         \"bufferViews\"",
+           R"(, {"bufferView": 2, "componentType": 5126, "type": ")" + accessor_type +
+               R"(", "count": )" + std::to_string(count) + "}");
+    insert("],\n         \"buffers\"", R"(, {"buffer": 1, "byteLength": 64})");
+    text.insert(text.rfind(']'),
+                R"(, {"byteLength": 64, "uri": "data:application/octet-stream;base64,)" +
+                    base64(turns) + "\"}");
+    return text;
+  };
+  const auto model = read_text("i.gltf", with(R"("TRANSLATION": 0, "ROTATION": 2)"));
+  ASSERT_EQ(model.polygon_count(), 8u);
+  EXPECT_EQ(model.object_names, (std::vector<std::string>{"row", "row_2", "row_3", "row_4"}));
+  // In the file: (1, 0, 5) + the far corner (1, 1, 0); turned, (1, 1, 5) - it. Scene: x, -z, y.
+  EXPECT_EQ(corner(model, 2, 0, 2), (Vec3{2, -5, 1}));
+  const Vec3 turned = corner(model, 4, 0, 2);
+  EXPECT_NEAR(turned.x, 0, 1e-6);
+  EXPECT_NEAR(turned.z, 0, 1e-6);
+  const auto scaled = read_text("i.gltf", with(R"("SCALE": 0)"));
+  EXPECT_EQ(corner(scaled, 4, 0, 2), (Vec3{1, -5, 1}));
+  EXPECT_EQ(read_text("i.gltf", with("")).polygon_count(), 2u);
+  EXPECT_NE(refusal("i.gltf", with(R"("TRANSLATION": 0, "ROTATION": 2)", "VEC4", 3))
+                .find("instances of two numbers"),
+            std::string::npos);
+  EXPECT_NE(refusal("i.gltf", with(R"("ROTATION": 2)", "VEC3")).find("is no VEC4"),
+            std::string::npos);
+}
+
 TEST(SceneGltf, TransparenciesAreTold) {
   const auto is_told = [](const std::string& alpha, const std::string& more) {
     auto text = gltf(R"({"mesh": 0})");
