@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geo/mesh/box_tree.h"
 #include "geo/mesh/cut_faces.h"
 #include "io/plan/selection.h"
 
@@ -33,29 +34,45 @@ class FaceCutter {
       : mesh_(mesh), bodies_(bodies), seals_(seals), frame_(frame) {}
 
   void cut_at(const NamedSelection& selection) {
+    chosen_ = selected_faces(without_ends(selection), mesh_, frame_);
     if (selection.of.height_m)
-      for (const double height : *selection.of.height_m) cut_at_height(selection, height);
-    for (const PlanArea& area : areas_in_scene(selection.of.polygon, frame_.crs,
-                                               "selections." + selection.name, selection.where))
+      for (const double height : *selection.of.height_m) cut_at_height(height);
+    const auto areas = areas_in_scene(selection.of.polygon, frame_.crs,
+                                      "selections." + selection.name, selection.where);
+    if (!areas.empty()) leave_out_far_from(areas);
+    for (const PlanArea& area : areas)
       for (const auto& ring : area)
         for (std::size_t k = 0; k < ring.size(); ++k)
-          cut_along(selection, ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]);
+          cut_along(ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]);
   }
 
  private:
   /// Above the lowest point of each object.
-  void cut_at_height(const NamedSelection& selection, double height_m) {
+  void cut_at_height(double height_m) {
     std::vector<double> z;
     for (const ObjectExtent& extent : extents_of(mesh_))
       z.push_back(extent.box.low.z - mesh_.origin.z + height_m);
     const auto objects = mesh_.triangle_object;
-    cut(selection, [&](std::size_t t) {
+    cut([&](std::size_t t) {
       FacePlane plane;
       plane.offset = z[objects[t].index()];
       return plane;
     });
   }
-  void cut_along(const NamedSelection& selection, Point2 from, Point2 to) {
+  /// What no line can meet.
+  void leave_out_far_from(const std::vector<PlanArea>& areas) {
+    Box box;
+    for (const PlanArea& area : areas)
+      for (const auto& ring : area)
+        for (const Point2 p : ring) include(box, Vec3{p.u, p.v, 0} - mesh_.origin);
+    for (std::size_t t = 0; t < chosen_.size(); ++t) {
+      const Box of = box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
+      if (of.low.x > box.high.x || of.high.x < box.low.x || of.low.y > box.high.y ||
+          of.high.y < box.low.y)
+        chosen_[t] = 0;
+    }
+  }
+  void cut_along(Point2 from, Point2 to) {
     const double length = std::hypot(to.u - from.u, to.v - from.v);
     if (length == 0) return;
     FacePlane plane;
@@ -65,24 +82,28 @@ class FaceCutter {
     plane.offset = dot(plane.normal, begin);
     plane.from = dot(plane.along, begin);
     plane.to = plane.from + length;
-    cut(selection, [&](std::size_t) { return plane; });
+    cut([&](std::size_t) { return plane; });
   }
   template <class PlaneOf>
-  void cut(const NamedSelection& selection, const PlaneOf& plane_of) {
-    const auto chosen = selected_faces(without_ends(selection), mesh_, frame_);
+  void cut(const PlaneOf& plane_of) {
     const auto source = cut_faces(mesh_, bodies_, [&](std::size_t t) {
-      return chosen[t] != 0 ? std::optional<FacePlane>(plane_of(t)) : std::nullopt;
+      return chosen_[t] != 0 ? std::optional<FacePlane>(plane_of(t)) : std::nullopt;
     });
-    if (seals_.empty()) return;
-    const auto old = std::move(seals_);
-    seals_.clear();
-    for (const auto t : source) seals_.push_back(old[t]);
+    take_over(chosen_, source);
+    if (!seals_.empty()) take_over(seals_, source);
+  }
+  static void take_over(std::vector<std::uint8_t>& flags, const std::vector<std::size_t>& source) {
+    const auto old = std::move(flags);
+    flags.clear();
+    flags.reserve(source.size());
+    for (const auto t : source) flags.push_back(old[t]);
   }
 
   Mesh& mesh_;
   Bodies& bodies_;
   std::vector<std::uint8_t>& seals_;
   SceneFrame frame_;
+  ChosenParts chosen_;  ///< faces that the selection at hand would choose wherever they lay
 };
 
 double area_of(const ChosenParts& chosen, const Mesh& mesh) {

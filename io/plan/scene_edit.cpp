@@ -33,15 +33,30 @@ class SceneEditor {
   SceneEditor(PolygonModel model, const Study& study) : model_(std::move(model)), study_(study) {}
 
   PolygonModel run() {
-    for (std::size_t s = 0; s < study_.scene.edit.size(); ++s) {
+    Problems problems;
+    bool lacks_objects = false;  // that steps may go on to name
+    for (std::size_t s = 0; s < study_.scene.edit.size() && !lacks_objects; ++s) {
       step_ = &study_.scene.edit[s];
       number_ = s + 1;
-      std::visit([&](const auto& action) { apply(action); }, step_->action);
+      try {
+        std::visit([&](const auto& action) { apply(action); }, step_->action);
+      } catch (const InputError& error) {
+        problems.add(error);
+        lacks_objects = brings_objects(step_->action);
+      }
     }
+    problems.throw_if_any();
     return std::move(model_);
   }
 
  private:
+  static bool brings_objects(const EditAction& action) {
+    return std::holds_alternative<ReplaceEdit>(action) ||
+           std::holds_alternative<AddFileEdit>(action) ||
+           std::holds_alternative<AddPrismEdit>(action) ||
+           std::holds_alternative<AddTreesEdit>(action);
+  }
+
   [[noreturn]] void refuse(const std::string& what, const std::string& why,
                            const std::string& hint) const {
     throw InputError(step_->where, subject() + ": " + what, why, hint);

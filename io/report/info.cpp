@@ -123,13 +123,13 @@ std::string reduction(const ResultReader& result) {
   if (std::isnan(skies)) return {};
   const Quantity quantity = result.quantity();
   return info_line(
-      "",
-      fmt::format("sky and reflected light of all intervals from {:.0f} skies and {:.0f} suns, "
-                  "off by {:.2g} {} (root mean square), {:.0f} % of an interval's standard error",
-                  skies, result.number_attribute("year_suns"),
-                  result.number_attribute(unit_names("reduction_error_w_m2", quantity)),
-                  quantity == Quantity::illuminance ? "lx" : "W/m²",
-                  100 * result.number_attribute("reduction_error_share")));
+      "", fmt::format("sky and reflected light of all intervals from {:.0f} skies and {:.0f} suns, "
+                      "off by {:.2g} {} (root mean square), {:.0f} % of the standard error that an "
+                      "interval's have",
+                      skies, result.number_attribute("year_suns"),
+                      result.number_attribute(unit_names("reduction_error_w_m2", quantity)),
+                      quantity == Quantity::illuminance ? "lx" : "W/m²",
+                      100 * result.number_attribute("reduction_error_share")));
 }
 
 std::string accuracy(const ResultReader& result, const std::vector<double>& load) {

@@ -173,8 +173,8 @@ void VariantRun::tell_reduction(const TracedSeason& season) const {
   if (!reduction) return;
   const std::string text = fmt::format(
       "sky and reflected light of all intervals from {} skies and {} suns; on intervals that are "
-      "none of them this differs by {:.2g} W/m2 from their own solutions, {:.0f} % of the standard "
-      "error of an interval",
+      "none of them this differs by {:.2g} W/m2 from their own solutions, {:.0f} % of the "
+      "standard error that an interval's have",
       reduction->skies, reduction->suns, reduction->error_w_m2, 100 * reduction->share());
   if (reduction->is_met)
     progress_.say(plan_.study.variant + ": " + text);

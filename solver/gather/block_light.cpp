@@ -54,6 +54,19 @@ BlockLight light_by_rays(const LineSet& lines, RayColumns rays,
   return light;
 }
 
+Columns far_ground_light(const LineSet& lines, const BlockSources& sources) {
+  Columns light = columns(lines.ends.size());
+  parallel_for(
+      lines.ends.size(),
+      [&](std::size_t i) {
+        const float seen = lines.ends[i].ground + lines.ends[i].ground_by_mirror;
+        for (std::size_t k = 0; k < block_width; ++k)
+          light[i * block_width + k] = seen * sources.ground_exitance[k];
+      },
+      receivers_per_chunk);
+  return light;
+}
+
 BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
                              const BlockSources& sources, RayColumns rays,
                              const std::vector<double>& parallel) {
@@ -67,15 +80,7 @@ BlockLight unreflected_light(const LineSet& lines, const PatchOptics& optics,
     light.sky[at] = std::max(0.0f, light.sky[at] + circumsolar[at]);
   });
   if (optics.any_mirror) gather(lines.sky_by_mirror, sources.sky, light.mirror, Into::add);
-  light.reflected = columns(rows);
-  parallel_for(
-      rows,
-      [&](std::size_t i) {
-        const float seen = lines.ends[i].ground + lines.ends[i].ground_by_mirror;
-        for (std::size_t k = 0; k < block_width; ++k)
-          light.reflected[i * block_width + k] = seen * sources.ground_exitance[k];
-      },
-      receivers_per_chunk);
+  light.reflected = far_ground_light(lines, sources);
   return light;
 }
 
@@ -106,11 +111,16 @@ BlockLight block_light(const Hierarchy& mesh, const LineSet& lines, const PatchO
   return light;
 }
 
-Columns seen_radiosity(const Hierarchy& mesh, const PatchOptics& optics, BlockLight& light) {
-  if (light.estimated.empty()) return std::move(light.gathered_radiosity);
+Columns radiosity_of_all_light(const Hierarchy& mesh, const PatchOptics& optics,
+                               const BlockLight& light) {
   Columns radiosity = reflected_radiosity(optics, light, mesh.element_count());
   pull_up(mesh, radiosity);
   return radiosity;
+}
+
+Columns seen_radiosity(const Hierarchy& mesh, const PatchOptics& optics, BlockLight& light) {
+  return light.estimated.empty() ? std::move(light.gathered_radiosity)
+                                 : radiosity_of_all_light(mesh, optics, light);
 }
 
 std::vector<Ledger> block_ledger(const LineSet& lines, const PatchOptics& optics,

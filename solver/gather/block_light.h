@@ -57,6 +57,9 @@ struct BlockLight {
 BlockLight light_by_rays(const LineSet& lines, RayColumns rays,
                          const std::vector<double>& parallel);
 
+/// Light of the far ground alone, [N][block].
+Columns far_ground_light(const LineSet& lines, const BlockSources& sources);
+
 /// Light that arrives at the rows of `lines` without diffuse reflection by patches: along these
 /// lines, by `rays`, and from parallel sources ([N], or empty). `reflected` holds the far ground
 /// alone, `gathered_radiosity` nothing.
@@ -85,6 +88,9 @@ Columns reflected_radiosity(const PatchOptics& optics, const Light& light, std::
   return radiosity;
 }
 
+/// Diffusely reflected radiosity of all elements in all of their light.
+Columns radiosity_of_all_light(const Hierarchy& mesh, const PatchOptics& optics,
+                               const BlockLight& light);
 /// Diffusely reflected radiosity of all elements as sensors see it: the radiosity that was gathered
 /// last or, where the light beyond the last bounce is estimated, that of all light.
 /// `gathered_radiosity` is used up.

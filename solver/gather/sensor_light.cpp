@@ -12,4 +12,11 @@ BlockLight sensor_light(const LineSet& lines, const PatchOptics& optics,
   return light;
 }
 
+Columns reflected_on_sensors(const LineSet& lines, const BlockSources& sources,
+                             const Columns& radiosity) {
+  Columns light = far_ground_light(lines, sources);
+  gather(lines.patches, radiosity, light, Into::add);
+  return light;
+}
+
 }  // namespace sunload

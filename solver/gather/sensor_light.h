@@ -21,4 +21,8 @@ BlockLight sensor_light(const LineSet& lines, const PatchOptics& optics,
                         const BlockSources& sources, RayColumns rays,
                         const std::vector<double>& parallel, const Columns& radiosity);
 
+/// Its reflected part alone: the two last terms.
+Columns reflected_on_sensors(const LineSet& lines, const BlockSources& sources,
+                             const Columns& radiosity);
+
 }  // namespace sunload

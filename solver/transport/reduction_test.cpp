@@ -30,13 +30,15 @@ ReductionTest::ReductionTest(const TracedScene& traced, std::size_t band,
   InstantSpread spread(traced.patches.count(), suns_->size());
   SunColumns& of = rays.of_realizations;
   const std::size_t R = static_cast<std::size_t>(traced.rules.realizations);
+  // Nodes make up the light of the sky and what is reflected: samples of the sun itself are those
+  // of the interval, here as there, and their noise would hide what nodes do where there is less of
+  // it.
   for (std::size_t r = 0; r < R; ++r) {
     if (has_circumsolar()) circumsolar_.emplace_back(of.circumsolar[r]);
-    spread.add(total_of(block_light(traced.hierarchy(), traced.patches.lines.realizations[r],
-                                    optics_, sources_,
-                                    {std::move(of.direct[r]), std::move(of.mirror[r]),
-                                     has_circumsolar() ? std::move(of.circumsolar[r]) : Columns()},
-                                    traced.patches.lamps.of(r), traced.bounce_rules(band))));
+    spread.add(total_of(block_light(
+        traced.hierarchy(), traced.patches.lines.realizations[r], optics_, sources_,
+        {rays_.direct, rays_.mirror, has_circumsolar() ? std::move(of.circumsolar[r]) : Columns()},
+        traced.patches.lamps.of(r), traced.bounce_rules(band))));
   }
   standard_error_ = spread.errors();
 }

@@ -6,6 +6,7 @@
 
 #include "solver/base/stopwatch.h"
 #include "solver/gather/block_tally.h"
+#include "solver/gather/sensor_light.h"
 #include "solver/transport/band_rays.h"
 #include "solver/transport/exact_totals.h"
 #include "solver/transport/gathered_sums.h"
@@ -48,10 +49,12 @@ class YearBand {
     parts_.add_sources(block, sources, PartSums::Sky::whole);
     for (std::size_t p = 0; p < parts_.count(); ++p)
       add_shares(block, weights, parts_.shares(p, block), shares_of_parts_[p]);
-    const FewLight on_patches = light_patches(block, weights, rays.on_patches);
-    exact_.keep(
-        block, on_patches,
-        traced_.sensors.count() > 0 ? light_sensors(block, weights, rays.on_sensors) : FewLight());
+    Columns seen;
+    const FewLight on_patches = light_patches(block, weights, rays.on_patches, seen);
+    exact_.keep(block, on_patches,
+                traced_.sensors.count() > 0
+                    ? light_sensors(block, sources, weights, seen, rays.on_sensors)
+                    : FewLight());
     book_sent_on(traced_, block, rays.sent_on, sums_, tally_);
     sums_.add_whole_sources(sources);
     add_shares(block, weights, std::vector<double>(block.suns.size(), 1), shares_);
@@ -67,19 +70,27 @@ class YearBand {
   }
 
  private:
-  /// Return what is made up of few solutions.
+  /// Return what is made up of few solutions. `seen`: radiosity of the patches in the light of
+  /// their intervals, where sensors see it.
   FewLight light_patches(const Block& block, const std::vector<NodeWeights>& weights,
-                         RayLight& rays) {
+                         RayLight& rays, Columns& seen) {
     BlockLight light = nodes_.light(traced_.patches, &NodeBlock::patches, weights, rays);
+    if (traced_.sensors.count() > 0 && !traced_.bounce_rules(band_).beyond.empty())
+      seen = radiosity_of_all_light(traced_.hierarchy(), optics_, light);
     for (std::size_t k = 0; k < block.suns.size(); ++k)
       tally_.ledger[block.rows[k]] += nodes_.ledger(weights, k);
     store_patches(optics_, light, block.suns, block.rows, rays.sunlit, tally_);
     return {std::move(light.reflected), std::move(light.sky)};
   }
 
-  FewLight light_sensors(const Block& block, const std::vector<NodeWeights>& weights,
+  /// What a sensor beside a surface sees is one patch or two, and nodes do not know in which hour a
+  /// shadow leaves them: the light is gathered anew where all of it is seen (seen_radiosity).
+  FewLight light_sensors(const Block& block, const BlockSources& sources,
+                         const std::vector<NodeWeights>& weights, const Columns& seen,
                          RayLight& rays) {
     BlockLight light = nodes_.light(traced_.sensors, &NodeBlock::sensors, weights, rays);
+    if (!seen.empty())
+      light.reflected = reflected_on_sensors(traced_.sensors.lines.pooled, sources, seen);
     store_received(light, block.suns, block.rows, rays.sunlit, tally_.sensors);
     return {std::move(light.reflected), std::move(light.sky)};
   }

@@ -34,7 +34,8 @@ std::string half_a_year(const std::string& obj, const std::string& errors, const
   replace("square.obj", obj);
   return study +
          "sensors: {points: [{position_m: [0, 0, 1.5], normal: [0, 0, 1]}, "
-         "{position_m: [-5, -4, 1.5], normal: [0, -1, 0]}]}\n";
+         "{position_m: [-5, -4, 1.5], normal: [0, -1, 0]}, "
+         "{position_m: [-5, -4, 1.5], normal: [0, 0, -1]}]}\n";
 }
 
 struct Solutions {
@@ -85,6 +86,7 @@ class YearOfTheSquare : public testing::Test {
   static void sums_of_parts_are_those_of_their_series();
   static void nothing_comes_from_where_there_is_nothing();
   static void sensors_see_the_same();
+  static void instants_of_sensors_differ_by_less_than_a_third_of_their_errors();
   static void ledgers_agree();
 };
 Solutions* YearOfTheSquare::solutions = nullptr;
@@ -230,6 +232,24 @@ void YearOfTheSquare::sensors_see_the_same() {
   }
 }
 
+// One looks down: the shadows that pass below it no node knows.
+void YearOfTheSquare::instants_of_sensors_differ_by_less_than_a_third_of_their_errors() {
+  const ReceiverTally &exact = each().sensors, &made = modes().sensors;
+  const std::size_t sensors = exact.exposure[total].size();
+  ASSERT_EQ(sensors, 3u);
+  for (std::size_t s = 0; s < sensors; ++s) {
+    double difference = 0, error = 0;
+    for (std::size_t at = s; at < exact.irradiance_se.size(); at += sensors) {
+      const auto se = static_cast<double>(exact.irradiance_se[at]);
+      const double off = static_cast<double>(made.irradiance[total][at]) -
+                         static_cast<double>(exact.irradiance[total][at]);
+      difference += off * off;
+      error += se * se;
+    }
+    EXPECT_LT(difference, error / 9) << s;
+  }
+}
+
 void YearOfTheSquare::ledgers_agree() {
   // Each term may differ by what the irradiance of all surfaces differs by, were it all one way.
   double area = 0, seconds = 0;
@@ -254,6 +274,7 @@ TEST_F(YearOfTheSquare, AgreesWithASolutionForEachInterval) {
   sums_of_parts_are_those_of_their_series();
   nothing_comes_from_where_there_is_nothing();
   sensors_see_the_same();
+  instants_of_sensors_differ_by_less_than_a_third_of_their_errors();
   ledgers_agree();
 }
 

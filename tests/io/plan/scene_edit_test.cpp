@@ -104,6 +104,18 @@ TEST_F(SceneEdit, TellsOfWallsThatItAdds) {
             "now, 1 object: b (along 20 of 32 m)");
 }
 
+TEST_F(SceneEdit, TellsOfAllStepsAtOnce) {
+  const std::string said = refusal(
+      "{object: huose_1, remove: true}, {object: shed, move_m: [0, 1, 0]}, {object: sehd, remove: "
+      "true}");
+  EXPECT_NE(said.find("scene.edit[1]: no object matches object 'huose_1'"), std::string::npos);
+  EXPECT_NE(said.find("scene.edit[3]: no object matches object 'sehd'"), std::string::npos);
+  // What a step was to bring may be meant by those after it.
+  const std::string of_added =
+      refusal("{add: {file: {file: nowhere.obj}}}, {object: tower, remove: true}");
+  EXPECT_EQ(of_added.find("tower"), std::string::npos) << of_added;
+}
+
 TEST_F(SceneEdit, RefusesAStepThatMatchesNothing) {
   const std::string said =
       refusal("{object: shed, move_m: [0, 1, 0]}, {object: huose_1, remove: true}");
