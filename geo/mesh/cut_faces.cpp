@@ -50,7 +50,7 @@ Crossings crossings_of(const Mesh& mesh, std::size_t t, const FacePlane& plane, 
     const Edge edge = edge_of(mesh, t, k);
     const double a = beyond(edge.first), b = beyond(edge.second);
     if (std::abs(beyond(mesh.triangles[t][k])) <= touching_m)
-      meet(vertex(mesh, mesh.triangles[t][k]));
+      meet(mesh.corner(t, static_cast<int>(k)));
     if (std::min(a, b) >= -touching_m || std::max(a, b) <= touching_m) continue;
     const Vec3 from = vertex(mesh, edge.first), to = vertex(mesh, edge.second);
     const Vec3 at = from + (to - from) * (a / (a - b));

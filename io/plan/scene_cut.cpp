@@ -144,11 +144,11 @@ std::string uncut_warning(const SceneStudy& study, const BuiltScene& built) {
                     [&](const NamedSelection& cut) { return cut.name == selection.name; }))
       continue;
     Mesh mesh = built.scene.mesh;
-    Bodies bodies = built.bodies;
+    Bodies no_bodies;
+    no_bodies.triangle_body.assign(mesh.triangle_count(), -1);
     std::vector<std::uint8_t> no_seals;
-    bodies.triangle_body.resize(mesh.triangle_count(), -1);
     const double whole = area_of(selected_faces(selection, mesh, frame), mesh);
-    FaceCutter(mesh, bodies, no_seals, frame).cut_at(selection);
+    FaceCutter(mesh, no_bodies, no_seals, frame).cut_at(selection);
     const double exact = area_of(selected_faces(selection, mesh, frame), mesh);
     if (std::abs(whole - exact) <= worth_telling * exact) continue;
     return message(rule.where,

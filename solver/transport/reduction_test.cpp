@@ -19,8 +19,7 @@ ReductionTest::ReductionTest(const TracedScene& traced, std::size_t band,
       suns_(std::make_unique<const std::vector<IntervalLight>>(std::move(suns))),
       sources_(*suns_, static_cast<std::size_t>(traced.grid.cell_count())) {
   sources_.split_sky(traced.grid);
-  RayLight rays =
-      light_iteration(traced, sources_, {.columns = true, .all_parts = true}, {}, work).on_patches;
+  RayLight rays = light_iteration(traced, sources_, {.columns = true}, {}, work).on_patches;
   const Stopwatch time(work[Work::solve_s]);
   rays_ = rays.pooled;
   rays_.circumsolar = {};
