@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
-#include <span>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "geo/mesh/covered_parts.h"
@@ -62,13 +63,13 @@ Crossings crossings_of(const Mesh& mesh, std::size_t t, const FacePlane& plane, 
 }
 
 /// Edges that planes cut. One that another plane has cut already waits for its parts.
-CutEdges edges_to_cut(const Mesh& mesh, const std::vector<std::size_t>& source,
+CutEdges edges_to_cut(const FaceParts& parts, const std::vector<std::uint8_t>& may_be_cut,
                       const PlaneOfFace& plane_of, double touching_m) {
   CutEdges cut;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto plane = plane_of(source[t]);
-    if (!plane) continue;
-    const Crossings found = crossings_of(mesh, t, *plane, touching_m);
+  for (std::size_t t = 0; t < parts.mesh.triangle_count(); ++t) {
+    const std::size_t face = parts.source[t];
+    if (may_be_cut[face] == 0) continue;
+    const Crossings found = crossings_of(parts.mesh, t, plane_of(face), touching_m);
     const auto crossings = std::span(found.of_edges).first(found.count);
     const bool waits = std::any_of(crossings.begin(), crossings.end(), [&](const auto& crossing) {
       const auto known = cut.find(crossing.first);
@@ -118,9 +119,12 @@ std::vector<TrianglePart> parts_of(const Mesh& mesh, std::size_t t,
   return {part_of(ab, b, bc), part_of(a, ab, c), part_of(ab, bc, c)};
 }
 
-/// Divides all triangles that have one of these edges; returns what each is a part of.
-std::vector<std::size_t> divide(Mesh& mesh, Bodies& bodies, const CutEdges& cut, double grid_m) {
-  DividedMesh divided(mesh, bodies, grid_m);
+/// Divides all triangles that have one of these edges.
+void divide(FaceParts& parts, const CutEdges& cut, double grid_m) {
+  Mesh& mesh = parts.mesh;
+  Bodies none;
+  none.triangle_body.assign(mesh.triangle_count(), -1);
+  DividedMesh divided(mesh, none, grid_m);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     std::array<std::optional<Vec3>, 3> cuts;
     bool any = false;
@@ -134,22 +138,103 @@ std::vector<std::size_t> divide(Mesh& mesh, Bodies& bodies, const CutEdges& cut,
     else
       divided.keep(t, state_of(mesh, t));
   }
-  return divided.finish().source;
+  std::vector<std::size_t> source = divided.finish().source;
+  for (std::size_t& t : source) t = parts.source[t];
+  parts.source = std::move(source);
+}
+
+/// Of those that may be cut the triangles that some plane cuts, and all that have an edge of these.
+std::vector<std::size_t> involved(const Mesh& mesh, std::span<const std::size_t> faces,
+                                  std::span<const PlaneOfFace> planes, double touching_m) {
+  std::vector<std::uint8_t> is_in(mesh.triangle_count(), 0);
+  std::set<Edge> edges;
+  for (const std::size_t t : faces)
+    if (std::any_of(planes.begin(), planes.end(), [&](const PlaneOfFace& plane_of) {
+          return crossings_of(mesh, t, plane_of(t), touching_m).count > 0;
+        }))
+      for (std::size_t k = 0; k < 3; ++k) edges.insert(edge_of(mesh, t, k));
+  std::vector<std::size_t> found;
+  for (std::size_t t = 0; t < mesh.triangle_count() && !edges.empty(); ++t)
+    if (edges.contains(edge_of(mesh, t, 0)) || edges.contains(edge_of(mesh, t, 1)) ||
+        edges.contains(edge_of(mesh, t, 2)))
+      found.push_back(t);
+  return found;
+}
+
+/// Of the mesh these triangles alone; vertices keep their numbers.
+Mesh some_of(const Mesh& mesh, const std::vector<std::size_t>& triangles) {
+  Mesh some = mesh;
+  const auto take = [&](auto& list, const auto& from) {
+    list.clear();
+    if (from.empty()) return;
+    for (const std::size_t t : triangles) list.push_back(from[t]);
+  };
+  take(some.triangles, mesh.triangles);
+  take(some.triangle_object, mesh.triangle_object);
+  take(some.triangle_material, mesh.triangle_material);
+  take(some.triangle_facade, mesh.triangle_facade);
+  take(some.triangle_surface, mesh.triangle_surface);
+  take(some.triangle_sides, mesh.triangle_sides);
+  take(some.triangle_covered, mesh.triangle_covered);
+  return some;
+}
+
+/// A part of a triangle whose first `old_vertices` vertices are those of the mesh.
+TrianglePart part_in(const Mesh& parts, std::size_t p, std::size_t old_vertices) {
+  TrianglePart part;
+  part.state = state_of(parts, p);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 at = parts.corner(p, static_cast<int>(k));
+    const std::int32_t v = parts.triangles[p][k];
+    part.corners[k] = {at.x, at.y, at.z};
+    part.old[k] = static_cast<std::size_t>(v) < old_vertices ? v : -1;
+  }
+  return part;
 }
 
 }  // namespace
 
-std::vector<std::size_t> cut_faces(Mesh& mesh, Bodies& bodies, const PlaneOfFace& plane_of) {
+FaceParts parts_of_faces(const Mesh& mesh, std::span<const std::size_t> faces,
+                         std::span<const PlaneOfFace> planes) {
   const double touching_m = contact_of(mesh);
-  std::vector<std::size_t> source(mesh.triangle_count());
-  std::iota(source.begin(), source.end(), std::size_t{0});
-  for (;;) {
-    const CutEdges cut = edges_to_cut(mesh, source, plane_of, touching_m);
-    if (cut.empty()) return source;
-    auto parts = divide(mesh, bodies, cut, touching_m / roundings_per_contact);
-    for (std::size_t& t : parts) t = source[t];
-    source = std::move(parts);
+  FaceParts parts;
+  parts.source = involved(mesh, faces, planes, touching_m);
+  parts.mesh = some_of(mesh, parts.source);
+  std::vector<std::uint8_t> may_be_cut(mesh.triangle_count(), 0);
+  for (const std::size_t t : faces) may_be_cut[t] = 1;
+  for (const PlaneOfFace& plane_of : planes)
+    for (;;) {
+      const CutEdges cut = edges_to_cut(parts, may_be_cut, plane_of, touching_m);
+      if (cut.empty()) break;
+      divide(parts, cut, touching_m / roundings_per_contact);
+    }
+  parts.is_divided.assign(mesh.triangle_count(), 0);
+  for (std::size_t p = 1; p < parts.source.size(); ++p)
+    if (parts.source[p] == parts.source[p - 1]) parts.is_divided[parts.source[p]] = 1;
+  return parts;
+}
+
+std::vector<std::size_t> cut_faces(Mesh& mesh, Bodies& bodies, std::span<const std::size_t> faces,
+                                   std::span<const PlaneOfFace> planes) {
+  const FaceParts parts = parts_of_faces(mesh, faces, planes);
+  if (std::find(parts.is_divided.begin(), parts.is_divided.end(), 1) == parts.is_divided.end()) {
+    std::vector<std::size_t> same(mesh.triangle_count());
+    std::iota(same.begin(), same.end(), std::size_t{0});
+    return same;
   }
+  DividedMesh divided(mesh, bodies, contact_of(mesh) / roundings_per_contact);
+  const std::size_t old_vertices = mesh.vertices.size();
+  std::size_t p = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    std::vector<TrianglePart> of_face;
+    for (; p < parts.source.size() && parts.source[p] == t; ++p)
+      of_face.push_back(part_in(parts.mesh, p, old_vertices));
+    if (parts.is_divided[t] != 0)
+      divided.divide(t, of_face);
+    else
+      divided.keep(t, state_of(mesh, t));
+  }
+  return divided.finish().source;
 }
 
 }  // namespace sunload

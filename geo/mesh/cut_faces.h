@@ -4,8 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "geo/base/units.h"
@@ -23,15 +24,26 @@ struct FacePlane {
   double from = -infinity, to = infinity;
 };
 /// Where a triangle is to be cut, by its number before any cut was made.
-using PlaneOfFace = std::function<std::optional<FacePlane>(std::size_t)>;
+using PlaneOfFace = std::function<FacePlane(std::size_t)>;
 
-/// Divides triangles along their planes, from rim to rim. Triangles that share an edge which is
-/// divided are divided with it: closed bodies stay closed. Corners nearer to a plane than surfaces
-/// touch (geo/mesh/covered.h) lie in it. Parts take the place of their triangle in the order, and
-/// all that is known of it.
-///
-/// Returns what each triangle is (a part of). Where nothing is cut, nothing changes. Cost: a look
-/// at all triangles, again while parts meet planes of their own.
-std::vector<std::size_t> cut_faces(Mesh& mesh, Bodies& bodies, const PlaneOfFace& plane_of);
+/// Triangles that were divided, and those that share an edge with them.
+struct FaceParts {
+  Mesh mesh;                        ///< of their parts alone, but of all vertices and names
+  std::vector<std::size_t> source;  ///< what each part is (a part of), in the order of these
+  /// Triangles of which there is more than one part.
+  std::vector<std::uint8_t> is_divided;
+};
+
+/// Divides some triangles along planes, one plane after the other, from rim to rim. Triangles that
+/// share an edge which is divided are divided with it: closed bodies stay closed. Corners nearer to
+/// a plane than surfaces touch (geo/mesh/covers.h) lie in it. Parts have all that is known of their
+/// triangle. Cost: a look of each plane at all of `faces`, and at the parts for each cut.
+FaceParts parts_of_faces(const Mesh& mesh, std::span<const std::size_t> faces,
+                         std::span<const PlaneOfFace> planes);
+
+/// The same in the mesh itself, where parts take the place of their triangle in the order. Returns
+/// what each triangle is (a part of). Where nothing is cut, nothing changes.
+std::vector<std::size_t> cut_faces(Mesh& mesh, Bodies& bodies, std::span<const std::size_t> faces,
+                                   std::span<const PlaneOfFace> planes);
 
 }  // namespace sunload

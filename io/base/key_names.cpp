@@ -35,6 +35,66 @@ const UnitSuffix* suffix_of(std::string_view key) {
   return found == unit_suffixes.end() ? nullptr : &*found;
 }
 
+/// What a word after a number means in the unit of a key.
+struct WrittenUnit {
+  std::string_view word, unit;
+  double factor;
+};
+constexpr std::array<WrittenUnit, 52> written_units{{
+    {"m", "metres", 1},
+    {"metre", "metres", 1},
+    {"metres", "metres", 1},
+    {"meter", "metres", 1},
+    {"meters", "metres", 1},
+    {"mm", "metres", 1e-3},
+    {"cm", "metres", 1e-2},
+    {"km", "metres", 1e3},
+    {"ft", "metres", 0.3048},
+    {"feet", "metres", 0.3048},
+    {"foot", "metres", 0.3048},
+    {"in", "metres", 0.0254},
+    {"m2", "square metres", 1},
+    {"m²", "square metres", 1},
+    {"cm2", "square metres", 1e-4},
+    {"cm²", "square metres", 1e-4},
+    {"°", "degrees", 1},
+    {"deg", "degrees", 1},
+    {"degree", "degrees", 1},
+    {"degrees", "degrees", 1},
+    {"rad", "degrees", 57.29577951308232},
+    {"N", "degrees", 1},
+    {"E", "degrees", 1},
+    {"S", "degrees", -1},
+    {"W", "degrees", -1},
+    {"°N", "degrees", 1},
+    {"°E", "degrees", 1},
+    {"°S", "degrees", -1},
+    {"°W", "degrees", -1},
+    {"min", "minutes", 1},
+    {"minute", "minutes", 1},
+    {"minutes", "minutes", 1},
+    {"h", "minutes", 60},
+    {"hour", "minutes", 60},
+    {"hours", "minutes", 60},
+    {"s", "minutes", 1.0 / 60},
+    {"h", "hours", 1},
+    {"hour", "hours", 1},
+    {"hours", "hours", 1},
+    {"min", "hours", 1.0 / 60},
+    {"minutes", "hours", 1.0 / 60},
+    {"s", "seconds", 1},
+    {"min", "seconds", 60},
+    {"h", "seconds", 3600},
+    {"W/m2", "W/m²", 1},
+    {"W/m²", "W/m²", 1},
+    {"kW/m2", "W/m²", 1e3},
+    {"kW/m²", "W/m²", 1e3},
+    {"W", "watts", 1},
+    {"kW", "watts", 1e3},
+    {"%", "", 1e-2},
+    {"percent", "", 1e-2},
+}};
+
 std::string_view without_unit(std::string_view key) {
   const UnitSuffix* unit = suffix_of(key);
   if (unit) key.remove_suffix(unit->suffix.size());
@@ -79,6 +139,13 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string unit_of_key(std::string_view key) {
   const UnitSuffix* unit = suffix_of(key);
   return unit ? std::string(unit->name) : std::string();
+}
+
+std::optional<double> factor_to_unit(std::string_view word, std::string_view unit) {
+  const auto found =
+      std::find_if(written_units.begin(), written_units.end(),
+                   [&](const WrittenUnit& of) { return of.word == word && of.unit == unit; });
+  return found == written_units.end() ? std::nullopt : std::optional(found->factor);
 }
 
 std::string key_hint(const std::string& unknown, const std::vector<std::string>& known) {

@@ -3,6 +3,7 @@
 /// Hints for misspelt words: nearest name, and units at the end of a key.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,5 +20,10 @@ std::string key_hint(const std::string& unknown, const std::vector<std::string>&
 
 /// "degrees" for `latitude_deg`; empty where the key ends in no unit.
 std::string unit_of_key(std::string_view key);
+
+/// What a number that is written with a unit is multiplied by to be in the unit of a key, as
+/// unit_of_key names it: 0.01 for "cm" and "metres", -1 for "S" (south) and "degrees". Nothing
+/// where the word is no unit of that kind.
+std::optional<double> factor_to_unit(std::string_view word, std::string_view unit);
 
 }  // namespace sunload

@@ -186,18 +186,12 @@ class MaterialAssigner {
   struct LastRules {
     std::optional<std::size_t> specific, by_kind;
   };
-  LastRules rules_for(std::size_t t, const FileMaterial* file) {
-    const Mesh& mesh = scene_.mesh;
+  LastRules rules_for(std::size_t t) {
     LastRules last;
-    if (study_.scene.assign.empty()) return last;
-    const std::size_t object = mesh.triangle_object[t].index();
-    const auto& kind = mesh.object_kinds[object];
-    const std::string surface = surface_names[static_cast<std::size_t>(mesh.triangle_surface[t])];
     for (std::size_t r = 0; r < study_.scene.assign.size(); ++r) {
       const auto& rule = study_.scene.assign[r];
-      if (named_[r][object] == 0 || !matches(rule.surface, surface) || !matches(rule.kind, kind) ||
-          !matches(rule.material_was, file ? file->name : "") ||
-          (rule.selection && selected_[r][t] == 0))
+      if ((rule.selection && selected_[r][t] == 0) ||
+          !matches_but_selection(rule, named_[r], scene_.mesh, t))
         continue;
       ++used_[r].matched;
       (is_specific(rule) ? last.specific : last.by_kind) = r;
@@ -226,7 +220,7 @@ class MaterialAssigner {
     const Mesh& mesh = scene_.mesh;
     const auto file_id = mesh.triangle_material[t];
     const FileMaterial* file = file_id.exists() ? &mesh.file_materials[file_id.index()] : nullptr;
-    const LastRules rules = rules_for(t, file);
+    const LastRules rules = rules_for(t);
     if (rules.specific) return &given_by(*rules.specific, t);
     if (file && file->is_reference) return &named(file->name);
     if (rules.by_kind) return &given_by(*rules.by_kind, t);
@@ -474,6 +468,18 @@ class MaterialAssigner {
 };
 
 }  // namespace
+
+bool matches_but_selection(const AssignRule& rule, const ChosenObjects& named, const Mesh& mesh,
+                           std::size_t triangle) {
+  const std::size_t object = mesh.triangle_object[triangle].index();
+  const MaterialId of_file = mesh.triangle_material[triangle];
+  return named[object] != 0 &&
+         matches(rule.surface,
+                 surface_names[static_cast<std::size_t>(mesh.triangle_surface[triangle])]) &&
+         matches(rule.kind, mesh.object_kinds[object]) &&
+         matches(rule.material_was,
+                 of_file.exists() ? mesh.file_materials[of_file.index()].name : "");
+}
 
 std::vector<RuleUse> assign_materials(const Study& study, const SceneFrame& frame, Scene& scene,
                                       std::vector<std::string>& warnings,

@@ -36,6 +36,11 @@ struct MaterialsWhen {
   std::optional<double> albedo = {};
 };
 
+/// Whether a rule matches a triangle, its selection left out of account. `named`: the objects that
+/// its `object` names.
+bool matches_but_selection(const AssignRule& rule, const ChosenObjects& named, const Mesh& mesh,
+                           std::size_t triangle);
+
 /// Fills `scene.materials` and `scene.material`, and lets materials decide the sides of triangles.
 ///
 /// What is more specific goes first. The material of a triangle is that of the last rule of

@@ -65,9 +65,15 @@ struct StepsOf {
 
   void operator()(const DaysPeriod& period) const {
     for (const auto& day : period.days)
-      append_steps(resolved(at_time_of_day(day, period.from_s), zone, out.notes),
-                   resolved(at_time_of_day(day, period.to_s), zone, out.notes),
+      append_steps(at(day, period.from_s), at(day, period.to_s),
                    period.step_min * seconds_per_minute, out.steps);
+  }
+  /// Of days that begin or end where clocks change there is nothing to be said: no such time is
+  /// written.
+  UnixTime at(const CivilTime& day, double time_of_day_s) const {
+    std::vector<std::string> unsaid;
+    const bool is_midnight = time_of_day_s == 0 || time_of_day_s == seconds_per_day;
+    return resolved(at_time_of_day(day, time_of_day_s), zone, is_midnight ? unsaid : out.notes);
   }
   void operator()(const RangePeriod& period) const {
     append_steps(utc_of(period.start, zone, out.notes), utc_of(period.end, zone, out.notes),

@@ -6,6 +6,7 @@
 
 #include "geo/base/check.h"
 #include "io/plan/joined_intervals.h"
+#include "io/plan/scene_cut.h"
 #include "io/plan/weather_albedo.h"
 
 namespace sunload {
@@ -16,7 +17,7 @@ namespace {
 std::string key_of_scene(const Study& study) {
   Study key;
   key.site = study.site;
-  if (key.site.north_deg) key.site.north_deg = 0;
+  if (key.site.north_deg && !are_cut_by_north(study.scene)) key.site.north_deg = 0;
   key.scene = study.scene;
   key.scene.materials.clear();
   key.scene.assign.clear();

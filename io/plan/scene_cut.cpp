@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/cut_faces.h"
+#include "io/plan/material_assign.h"
 #include "io/plan/selection.h"
 
 namespace sunload {
@@ -27,89 +29,107 @@ NamedSelection without_ends(NamedSelection selection) {
   return selection;
 }
 
-/// Cuts one mesh along the ends of one selection after the other.
-class FaceCutter {
- public:
-  FaceCutter(Mesh& mesh, Bodies& bodies, std::vector<std::uint8_t>& seals, const SceneFrame& frame)
-      : mesh_(mesh), bodies_(bodies), seals_(seals), frame_(frame) {}
-
-  void cut_at(const NamedSelection& selection) {
-    chosen_ = selected_faces(without_ends(selection), mesh_, frame_);
-    if (selection.of.height_m)
-      for (const double height : *selection.of.height_m) cut_at_height(height);
-    const auto areas = areas_in_scene(selection.of.polygon, frame_.crs,
-                                      "selections." + selection.name, selection.where);
-    if (!areas.empty()) leave_out_far_from(areas);
-    for (const PlanArea& area : areas)
-      for (const auto& ring : area)
-        for (std::size_t k = 0; k < ring.size(); ++k)
-          cut_along(ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]);
-  }
-
- private:
-  /// Above the lowest point of each object.
-  void cut_at_height(double height_m) {
-    std::vector<double> z;
-    for (const ObjectExtent& extent : extents_of(mesh_))
-      z.push_back(extent.box.low.z - mesh_.origin.z + height_m);
-    const auto objects = mesh_.triangle_object;
-    cut([&](std::size_t t) {
-      FacePlane plane;
-      plane.offset = z[objects[t].index()];
-      return plane;
-    });
-  }
-  /// What no line can meet.
-  void leave_out_far_from(const std::vector<PlanArea>& areas) {
-    Box box;
-    for (const PlanArea& area : areas)
-      for (const auto& ring : area)
-        for (const Point2 p : ring) include(box, Vec3{p.u, p.v, 0} - mesh_.origin);
-    for (std::size_t t = 0; t < chosen_.size(); ++t) {
-      const Box of = box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
-      if (of.low.x > box.high.x || of.high.x < box.low.x || of.low.y > box.high.y ||
-          of.high.y < box.low.y)
-        chosen_[t] = 0;
-    }
-  }
-  void cut_along(Point2 from, Point2 to) {
-    const double length = std::hypot(to.u - from.u, to.v - from.v);
-    if (length == 0) return;
-    FacePlane plane;
-    plane.along = {(to.u - from.u) / length, (to.v - from.v) / length, 0};
-    plane.normal = {plane.along.y, -plane.along.x, 0};
-    const Vec3 begin = Vec3{from.u, from.v, 0} - mesh_.origin;
-    plane.offset = dot(plane.normal, begin);
-    plane.from = dot(plane.along, begin);
-    plane.to = plane.from + length;
-    cut([&](std::size_t) { return plane; });
-  }
-  template <class PlaneOf>
-  void cut(const PlaneOf& plane_of) {
-    const auto source = cut_faces(mesh_, bodies_, [&](std::size_t t) {
-      return chosen_[t] != 0 ? std::optional<FacePlane>(plane_of(t)) : std::nullopt;
-    });
-    take_over(chosen_, source);
-    if (!seals_.empty()) take_over(seals_, source);
-  }
-  static void take_over(std::vector<std::uint8_t>& flags, const std::vector<std::size_t>& source) {
-    const auto old = std::move(flags);
-    flags.clear();
-    flags.reserve(source.size());
-    for (const auto t : source) flags.push_back(old[t]);
-  }
-
-  Mesh& mesh_;
-  Bodies& bodies_;
-  std::vector<std::uint8_t>& seals_;
-  SceneFrame frame_;
-  ChosenParts chosen_;  ///< faces that the selection at hand would choose wherever they lay
+/// Along the ends of one selection: what is to be cut, and where.
+struct CutsOfSelection {
+  std::vector<std::size_t> faces;  ///< that the selection would choose wherever they lay
+  std::vector<PlaneOfFace> planes;
 };
 
-double area_of(const ChosenParts& chosen, const Mesh& mesh) {
-  double sum = 0;
+/// Above the lowest point of each object.
+PlaneOfFace level_at(double height_m, const Mesh& mesh) {
+  std::vector<double> z;
+  for (const ObjectExtent& extent : extents_of(mesh))
+    z.push_back(extent.box.low.z - mesh.origin.z + height_m);
+  return [z = std::move(z), object = mesh.triangle_object](std::size_t t) {
+    FacePlane plane;
+    plane.offset = z[object[t].index()];
+    return plane;
+  };
+}
+
+PlaneOfFace wall_on(Point2 from, Point2 to, const Mesh& mesh) {
+  const double length = std::hypot(to.u - from.u, to.v - from.v);
+  FacePlane plane;
+  plane.along = {(to.u - from.u) / length, (to.v - from.v) / length, 0};
+  plane.normal = {plane.along.y, -plane.along.x, 0};
+  const Vec3 begin = Vec3{from.u, from.v, 0} - mesh.origin;
+  plane.offset = dot(plane.normal, begin);
+  plane.from = dot(plane.along, begin);
+  plane.to = plane.from + length;
+  return [plane](std::size_t) { return plane; };
+}
+
+/// Leaves out what no line about the areas can meet.
+void leave_out_far_from(const std::vector<PlanArea>& areas, const Mesh& mesh,
+                        std::vector<std::size_t>& faces) {
+  Box box;
+  for (const PlanArea& area : areas)
+    for (const auto& ring : area)
+      for (const Point2 p : ring) include(box, Vec3{p.u, p.v, 0} - mesh.origin);
+  std::erase_if(faces, [&](std::size_t t) {
+    const Box of = box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+    return of.low.x > box.high.x || of.high.x < box.low.x || of.low.y > box.high.y ||
+           of.high.y < box.low.y;
+  });
+}
+
+CutsOfSelection cuts_of(const NamedSelection& selection, const Mesh& mesh,
+                        const SceneFrame& frame) {
+  CutsOfSelection cuts;
+  const ChosenParts chosen = selected_faces(without_ends(selection), mesh, frame);
   for (std::size_t t = 0; t < chosen.size(); ++t)
-    if (chosen[t] != 0 && mesh.bears_patches(t)) sum += norm(mesh.area_vector2(t)) / 2;
+    if (chosen[t] != 0) cuts.faces.push_back(t);
+  if (selection.of.height_m)
+    for (const double height : *selection.of.height_m)
+      cuts.planes.push_back(level_at(height, mesh));
+  const auto areas = areas_in_scene(selection.of.polygon, frame.crs, "selections." + selection.name,
+                                    selection.where);
+  if (!areas.empty()) leave_out_far_from(areas, mesh, cuts.faces);
+  for (const PlanArea& area : areas)
+    for (const auto& ring : area)
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Point2 from = ring[k], to = ring[k + 1 < ring.size() ? k + 1 : 0];
+        if (from.u != to.u || from.v != to.v) cuts.planes.push_back(wall_on(from, to, mesh));
+      }
+  return cuts;
+}
+
+void take_over(std::vector<std::uint8_t>& flags, const std::vector<std::size_t>& source) {
+  const auto old = std::move(flags);
+  flags.clear();
+  flags.reserve(source.size());
+  for (const auto t : source) flags.push_back(old[t]);
+}
+
+/// What a rule that gives whole triangles makes of a selection [m2].
+struct WholeTriangles {
+  double held = 0;     ///< by the selection, of what the rule may give
+  double lacking = 0;  ///< of that, in triangles whose middle lies outside
+  double beyond = 0;   ///< outside, in triangles whose middle lies inside
+};
+
+WholeTriangles whole_triangles(const AssignRule& rule, const Mesh& mesh, const SceneFrame& frame) {
+  const NamedSelection& selection = *rule.selection;
+  const CutsOfSelection cuts = cuts_of(selection, mesh, frame);
+  const FaceParts parts = parts_of_faces(mesh, cuts.faces, cuts.planes);
+  const ChosenParts whole = selected_faces(selection, mesh, frame);
+  const ChosenParts exact = selected_faces(selection, parts.mesh, frame, extents_of(mesh));
+  const ChosenObjects named = objects_named(rule.object, mesh);
+  const auto counts = [&](std::size_t t) {
+    return mesh.bears_patches(t) && matches_but_selection(rule, named, mesh, t);
+  };
+  WholeTriangles sum;
+  for (std::size_t t = 0; t < whole.size(); ++t)
+    if (whole[t] != 0 && parts.is_divided[t] == 0 && counts(t))
+      sum.held += norm(mesh.area_vector2(t)) / 2;
+  for (std::size_t p = 0; p < exact.size(); ++p) {
+    const std::size_t t = parts.source[p];
+    if (parts.is_divided[t] == 0 || !counts(t)) continue;
+    const double area = norm(parts.mesh.area_vector2(p)) / 2;
+    if (exact[p] != 0) sum.held += area;
+    if (exact[p] != 0 && whole[t] == 0) sum.lacking += area;
+    if (exact[p] == 0 && whole[t] != 0) sum.beyond += area;
+  }
   return sum;
 }
 
@@ -122,10 +142,11 @@ bool has_ends(const SelectionStudy& selection) {
 void cut_at_selections(const SceneStudy& study, BuiltScene& built) {
   if (study.cut.empty()) return;
   Mesh& mesh = built.scene.mesh;
-  FaceCutter cutter(mesh, built.bodies, built.seals, {built.crs, built.site.north_deg});
   for (const NamedSelection& selection : study.cut) {
     const std::size_t before = mesh.triangle_count();
-    cutter.cut_at(selection);
+    const CutsOfSelection cuts = cuts_of(selection, mesh, {built.crs, built.site.north_deg});
+    const auto source = cut_faces(mesh, built.bodies, cuts.faces, cuts.planes);
+    if (!built.seals.empty()) take_over(built.seals, source);
     built.notes.push_back(
         fmt::format("faces are cut along the ends of selection '{}': {} "
                     "triangles became {}",
@@ -134,29 +155,31 @@ void cut_at_selections(const SceneStudy& study, BuiltScene& built) {
   measure(mesh, built.report);
 }
 
+bool are_cut_by_north(const SceneStudy& study) {
+  return std::any_of(study.cut.begin(), study.cut.end(), [](const NamedSelection& selection) {
+    return selection.of.azimuth_deg || !selection.of.facade.empty();
+  });
+}
+
 std::string uncut_warning(const SceneStudy& study, const BuiltScene& built) {
   constexpr double worth_telling = 0.02;  // of the selection's area
   const SceneFrame frame{built.crs, built.site.north_deg};
   for (const AssignRule& rule : study.assign) {
     if (!rule.selection || !has_ends(rule.selection->of)) continue;
-    const NamedSelection& selection = *rule.selection;
+    const std::string& name = rule.selection->name;
     if (std::any_of(study.cut.begin(), study.cut.end(),
-                    [&](const NamedSelection& cut) { return cut.name == selection.name; }))
+                    [&](const NamedSelection& cut) { return cut.name == name; }))
       continue;
-    Mesh mesh = built.scene.mesh;
-    Bodies no_bodies;
-    no_bodies.triangle_body.assign(mesh.triangle_count(), -1);
-    std::vector<std::uint8_t> no_seals;
-    const double whole = area_of(selected_faces(selection, mesh, frame), mesh);
-    FaceCutter(mesh, no_bodies, no_seals, frame).cut_at(selection);
-    const double exact = area_of(selected_faces(selection, mesh, frame), mesh);
-    if (std::abs(whole - exact) <= worth_telling * exact) continue;
-    return message(rule.where,
-                   fmt::format("selection '{}' holds {:.4g} m2, of which whole triangles by their "
-                               "middle make {:.4g} m2",
-                               selection.name, exact, whole),
-                   "the rule gives its material to these",
-                   "scene.cut: [" + selection.name + "] cuts faces along its ends");
+    const auto [held, lacking, beyond] = whole_triangles(rule, built.scene.mesh, frame);
+    if (lacking + beyond <= worth_telling * held) continue;
+    return message(
+        rule.where,
+        fmt::format(
+            "of {:.4g} m2 that selection '{}' holds {:.4g} m2 do not get material '{}', and "
+            "{:.4g} m2 beside them do",
+            held, name, lacking, rule.material, beyond),
+        "a rule gives its material to whole triangles, by their middle",
+        "scene.cut: [" + name + "] cuts faces along its ends");
   }
   return {};
 }

@@ -14,6 +14,9 @@ namespace sunload {
 /// Adds a note of how many were cut. Throws InputError as Selector does.
 void cut_at_selections(const SceneStudy& study, BuiltScene& built);
 
+/// Whether where they are cut depends on where north is: by azimuths, or names of facades.
+bool are_cut_by_north(const SceneStudy& study);
+
 /// A warning where rules of `scene.assign` give whole triangles in place of a selection that ends
 /// within them, and `scene.cut` does not name it; empty where none does.
 std::string uncut_warning(const SceneStudy& study, const BuiltScene& built);

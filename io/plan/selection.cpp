@@ -33,8 +33,8 @@ bool lies_between(double azimuth_deg, const std::array<double, 2>& ends) {
   return width == 0 || wrapped_deg(azimuth_deg - ends[0] + rounding_deg) < width;
 }
 
-SceneObjects objects_of(const Mesh& mesh) {
-  return {{mesh.object_names, mesh.object_kinds, mesh.families}, extents_of(mesh)};
+SceneObjects objects_of(const Mesh& mesh, std::vector<ObjectExtent> extents) {
+  return {{mesh.object_names, mesh.object_kinds, mesh.families}, std::move(extents)};
 }
 
 /// By place in the tree: it, or something that it belongs to, is named so.
@@ -214,14 +214,21 @@ std::string empty_selection_warning(const std::string& name) {
 
 ChosenParts selected_faces(const NamedSelection& selection, const Mesh& mesh,
                            const SceneFrame& frame) {
+  return selected_faces(selection, mesh, frame, extents_of(mesh));
+}
+
+ChosenParts selected_faces(const NamedSelection& selection, const Mesh& mesh,
+                           const SceneFrame& frame, std::vector<ObjectExtent> extents) {
   const Selector selector(selection.of, frame, subject_of(selection), selection.where);
-  return selector.parts(objects_of(mesh), mesh.facades, mesh.triangle_count(), [&](std::size_t t) {
-    Vec3 sum;
-    for (const auto v : mesh.triangles[t]) sum += mesh.vertices[static_cast<std::size_t>(v)];
-    return Selector::Part{mesh.triangle_object[t], mesh.triangle_facade[t],
-                          mesh.triangle_surface[t], mesh.origin + sum / 3,
-                          normalized(mesh.area_vector2(t))};
-  });
+  return selector.parts(objects_of(mesh, std::move(extents)), mesh.facades, mesh.triangle_count(),
+                        [&](std::size_t t) {
+                          Vec3 sum;
+                          for (const auto v : mesh.triangles[t])
+                            sum += mesh.vertices[static_cast<std::size_t>(v)];
+                          return Selector::Part{mesh.triangle_object[t], mesh.triangle_facade[t],
+                                                mesh.triangle_surface[t], mesh.origin + sum / 3,
+                                                normalized(mesh.area_vector2(t))};
+                        });
 }
 
 ChosenParts selected_patches(const NamedSelection& selection, const BuiltScene& built,
@@ -230,7 +237,8 @@ ChosenParts selected_patches(const NamedSelection& selection, const BuiltScene& 
   const SceneFrame frame{built.crs, built.site.north_deg};
   const Selector selector(selection.of, frame, subject_of(selection), selection.where);
   return selector.parts(
-      objects_of(mesh), mesh.facades, hierarchy.patch_count(), [&](std::size_t i) {
+      objects_of(mesh, extents_of(mesh)), mesh.facades, hierarchy.patch_count(),
+      [&](std::size_t i) {
         const Patch& patch = hierarchy.patches()[i];
         const auto t = static_cast<std::size_t>(patch.triangle);
         return Selector::Part{

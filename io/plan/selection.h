@@ -107,6 +107,9 @@ std::string empty_selection_warning(const std::string& name);
 /// Faces of a mesh by their centroids.
 ChosenParts selected_faces(const NamedSelection& selection, const Mesh& mesh,
                            const SceneFrame& frame);
+/// The same of a mesh that has only some faces of objects of these extents.
+ChosenParts selected_faces(const NamedSelection& selection, const Mesh& mesh,
+                           const SceneFrame& frame, std::vector<ObjectExtent> extents);
 /// Patches of a mesh by their centroids, both sides of what has two.
 ChosenParts selected_patches(const NamedSelection& selection, const BuiltScene& built,
                              const Hierarchy& hierarchy);

@@ -18,11 +18,11 @@ namespace sunload {
 namespace {
 
 // Long enough for a clock, short enough for who waits: some tenths of a second on two cores.
-constexpr double lines_wanted = 1e6, sun_rays_wanted = 1.2e7;
-/// It is done again, small scenes several times, and the fastest counts: the first run waits for
-/// memory that the system clears.
-constexpr double long_enough_s = 0.15;
-constexpr int least_repetitions = 2, most_repetitions = 5;
+constexpr double lines_wanted = 1e6, sun_rays_wanted = 6e6;
+/// What took less is done again, small scenes several times, and the fastest counts: the first run
+/// waits for memory that the system clears, a tenth of a longer one.
+constexpr double long_enough_s = 0.3;
+constexpr int most_repetitions = 5;
 constexpr int probe_realizations = 2, most_probe_samples = 16;
 
 /// The study's own, with fewer lines, samples and realizations.
@@ -95,9 +95,8 @@ WorkDone repeated(const Run& run) {
   std::vector<WorkDone> runs;
   do {
     runs.push_back(run());
-  } while (runs.size() < least_repetitions ||
-           (runs.size() < most_repetitions &&
-            std::chrono::duration<double>(Clock::now() - begin).count() < long_enough_s));
+  } while (runs.size() < most_repetitions &&
+           std::chrono::duration<double>(Clock::now() - begin).count() < long_enough_s);
   return fastest(runs);
 }
 

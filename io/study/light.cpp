@@ -50,8 +50,8 @@ void warn_unused(YamlMap& map, const LightStudy& light) {
   if (light.source != LightSource::clear_sky) {
     unused("model", "source: clear_sky");
     unused("linke_turbidity", "source: clear_sky");
-  } else if (light.model != ClearSkyModel::ineichen) {
-    unused("linke_turbidity", "model: ineichen");
+  } else if (light.model == ClearSkyModel::haurwitz) {
+    unused("linke_turbidity", "model: ineichen or bird");
   }
   if (light.source != LightSource::weather) {
     for (const char* key : {"weather", "stamp", "missing", "decomposition"}) {

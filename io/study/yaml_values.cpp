@@ -29,6 +29,37 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
+std::string_view without_spaces(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return text;
+}
+
+/// Of a number and a unit, or points of the compass also before it. `unit`: what the key is in.
+std::string hint_of_unit(std::string_view text, const std::string& unit) {
+  constexpr std::string_view in_numbers = "0123456789.eE+-";
+  auto begin = text.find_first_of("0123456789.+-");
+  if (begin == text.npos) return "";
+  auto end = std::min(text.find_first_not_of(in_numbers, begin), text.size());
+  // "70E" has no exponent.
+  if (unit == "degrees" && end > begin + 1 && text[end - 1] == 'E') --end;
+  const std::string_view head = text.substr(begin, end - begin);
+  const std::string_view before = without_spaces(text.substr(0, begin)),
+                         after = without_spaces(text.substr(end));
+  const auto value = parse_number(head);
+  if (value && (before.empty() || after.empty())) {
+    if (const auto factor = factor_to_unit(before.empty() ? after : before, unit)) {
+      const std::string is =
+          *factor == 1 ? std::string(head) : fmt::format("{:.10g}", *factor * *value);
+      return "write " + is + " alone" + (unit.empty() ? "" : ", it is in " + unit);
+    }
+    const bool is_word = !after.empty() && after.find_first_of("0123456789_") == after.npos;
+    if (unit.empty() && before.empty() && is_word) return "write " + std::string(head) + " alone";
+  }
+  if (unit == "degrees") return "write decimal degrees alone; south and west are below 0";
+  return unit.empty() ? "" : "write a number alone, it is in " + unit;
+}
+
 std::string number_hint(const YamlNode& node, const std::string& key) {
   if (node.style == YamlNode::Style::quoted && parse_number(node.text)) {
     return "leave out the quotes";
@@ -39,14 +70,7 @@ std::string number_hint(const YamlNode& node, const std::string& key) {
     with_point[comma] = '.';
     if (parse_number(with_point)) return "write " + with_point;
   }
-  const auto end = std::min(node.text.find_first_not_of("0123456789.eE+-"), node.text.size());
-  const std::string head = node.text.substr(0, end), rest = node.text.substr(end);
-  const bool rest_is_unit = !rest.empty() && rest.find_first_of("0123456789_") == rest.npos;
-  if (rest_is_unit && parse_number(head)) {
-    const std::string unit = unit_of_key(key);
-    return "write " + head + " alone" + (unit.empty() ? "" : ", it is in " + unit);
-  }
-  return "";
+  return hint_of_unit(node.text, unit_of_key(key));
 }
 
 std::string range_text(const Range& range, const std::string& key) {

@@ -107,8 +107,10 @@ def lay_axes(axes, result, places, together):
     lines, rise_set = sunrise_lines(result, places)
     if together:
         for hours in rise_set.T:
-            axes.step(np.append(lines, np.array(lines[-1:]) + 1), np.append(hours, hours[-1:]), where="post",
-                      color="white", linewidth=0.8)
+            # Near the midnight sun the sun sets at 23:50 one day and at 0:10 the next: no line between.
+            for part in np.split(np.arange(len(hours)), np.flatnonzero(np.abs(np.diff(hours)) > 12) + 1):
+                axes.step([*(lines[k] for k in part), lines[part[-1]] + 1], [*hours[part], hours[part[-1]]],
+                          where="post", color="white", linewidth=0.8)
         locator = dates.AutoDateLocator(minticks=4, maxticks=12)
         axes.xaxis.set_major_locator(locator)
         axes.xaxis.set_major_formatter(dates.ConciseDateFormatter(locator))

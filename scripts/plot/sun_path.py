@@ -115,13 +115,23 @@ def draw_paths(axes, result, days, elevation, xy):
             axes.plot(xy[0][part], xy[1][part], color="#999999", linewidth=0.7, zorder=2)
 
 
+def noon_elevation(time, elevation):
+    """Of the suns of a day, whichever hours they have: sin(elevation) = a + b cos(t) + c sin(t)."""
+    if len(time) < 3:
+        return elevation.max()
+    turn = 2 * np.pi * (time - time[0]) / 86400
+    a, b, c = np.linalg.lstsq(np.column_stack([np.ones_like(turn), np.cos(turn), np.sin(turn)]),
+                              np.sin(np.radians(elevation)), rcond=None)[0]
+    return np.degrees(np.arcsin(min(1.0, a + np.hypot(b, c))))
+
+
 def label_hours(axes, result, days):
     """Full hours of civil time on the longest and the shortest path of the sun, between its dots."""
     time, azimuth, elevation = (result.numbers(n) for n in ("time", "sun_azimuth", "sun_elevation"))
     up = {}
     for k in np.flatnonzero(elevation > 0):
         up.setdefault(days[k], []).append(k)
-    highest = {day: elevation[members].max() for day, members in up.items()}
+    highest = {day: noon_elevation(time[members], elevation[members]) for day, members in up.items()}
     longest, shortest = max(sorted(highest), key=highest.get), min(sorted(highest), key=highest.get)
     is_apart = highest[longest] - highest[shortest] > LEAST_DEGREES_BETWEEN_LABELS
     for day in [longest, shortest] if is_apart else [longest]:

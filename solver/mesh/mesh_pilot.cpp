@@ -14,33 +14,20 @@ namespace sunload {
 
 namespace {
 
-/// Directions per half in which the surroundings are seen.
-constexpr std::size_t directions_per_half = 8;
 /// Of all surfaces: variants that differ in their diffuse reflectances get the same mesh, so that
 /// their patches pair one to one.
 constexpr double typical_reflectance = 0.3;
 /// Points of emitters per half.
 constexpr std::size_t emitter_points_per_half = 8;
-/// A packet of 16 points for every so many least areas: a point for 16 of them.
-constexpr double areas_per_packet = 256;
-constexpr std::size_t most_packets = 8;
-constexpr std::size_t halves_of_light = 2;
 /// Packets of directions from a luminaire whose beam an element may hold between its points.
 constexpr std::size_t beam_packets = 2;
-
-std::size_t packets_for(double area_m2, double min_area_m2) {
-  if (min_area_m2 <= 0) return 1;
-  const double packets = std::ceil(area_m2 / (areas_per_packet * min_area_m2));
-  return static_cast<std::size_t>(std::clamp(packets, 1.0, static_cast<double>(most_packets)));
-}
 
 struct Moments {
   double mean = 0, variance = 0;
 };
 
-/// Over the points. The halves are sampled independently: their covariance has no part of the
-/// sampling in it.
-Moments moments(const std::vector<double> (&at_point)[halves_of_light]) {
+/// Over the points, by the covariance of both halves.
+Moments moments(const std::array<std::vector<double>, halves_of_light>& at_point) {
   const std::size_t n = at_point[0].size();
   double mean[halves_of_light] = {};
   for (std::size_t h = 0; h < halves_of_light; ++h)
@@ -52,53 +39,6 @@ Moments moments(const std::vector<double> (&at_point)[halves_of_light]) {
 }
 
 }  // namespace
-
-/// Points of an element's side that light is asked for at, and its axes.
-struct MeshPilot::Points {
-  Vec3 normal;
-  Tangents axes;
-  RandomWords direction_seeds[halves_of_light];
-  RandomWords emitter_seeds[halves_of_light];
-  RandomWords beam_seeds;
-  RayCorners corners;
-  std::vector<Packet> packets;
-
-  Points(const ElementForest& forest, std::size_t element, std::uint8_t side, double offset_m,
-         std::uint64_t seed, std::size_t packet_count) {
-    const Vec3 a = forest.corner(element, 0);
-    const Vec3 ab = forest.corner(element, 1) - a, ac = forest.corner(element, 2) - a;
-    normal = normalized(cross(ab, ac)) * (side == 0 ? 1.0 : -1.0);
-    axes = tangents(normal);
-    corners = {a + normal * offset_m, a + ab + normal * offset_m, a + ac + normal * offset_m};
-    const std::uint64_t key = mixed(forest.key(element), side);
-    const auto words = [&](std::uint32_t realization) {
-      return random_words({.seed = seed,
-                           .purpose = Purpose::mesh_pilot,
-                           .realization = realization,
-                           .element = key});
-    };
-    for (std::uint32_t h = 0; h < halves_of_light; ++h) {
-      direction_seeds[h] = words(h);
-      emitter_seeds[h] = words(halves_of_light + h);
-    }
-    const RandomWords seeds = words(2 * halves_of_light);
-    beam_seeds = seeds;  // of other coordinates
-    for (std::size_t p = 0; p < packet_count; ++p) {
-      Packet packet;
-      for (std::size_t r = 0; r < packet_size; ++r) {
-        const auto index = static_cast<std::uint32_t>(p * packet_size + r);
-        const double u = scrambled_sobol(index, 0, seeds);
-        const double v = scrambled_sobol(index, 1, seeds);
-        const Barycentric at = sample_triangle(u, v);
-        const Vec3 point = a + ab * at.w1 + ac * at.w2 + normal * offset_m;
-        packet.x[r] = static_cast<float>(point.x);
-        packet.y[r] = static_cast<float>(point.y);
-        packet.z[r] = static_cast<float>(point.z);
-      }
-      packets.push_back(packet);  // cppcheck-suppress uninitvar  // filled above
-    }
-  }
-};
 
 MeshPilot::MeshPilot(const ElementForest& forest, const Scene& scene, const RayCaster& caster,
                      const PeriodLight& light, std::uint64_t seed)
@@ -131,33 +71,31 @@ void MeshPilot::add_children_of(std::size_t element) {
     for (std::size_t side = 0; side < 2; ++side) load_[2 * c + side] = load_[2 * element + side];
 }
 
-ElementLoad MeshPilot::load(std::size_t element, std::uint8_t side, double min_area_m2) const {
-  const std::size_t packets = packets_for(forest_.area(element), min_area_m2);
-  const Points points(forest_, element, side, caster_.offset_m(), seed_, packets);
+ElementLoad MeshPilot::load(const PilotSight& sight) const {
+  const PilotPoints& points = sight.points();
   ElementLoad load;
-  const std::size_t n = packets * packet_size;
-  std::vector<double> at_point[halves_of_light], glints[halves_of_light];
+  load.sees_sun = sight.sees_sun();
+  load.largest_cosine = sight.largest_cosine();
+  const LuminaireLoad luminaires = beams(points);
+  std::array<std::vector<double>, halves_of_light> at_point, glints;
   for (std::size_t h = 0; h < halves_of_light; ++h) {
-    at_point[h].assign(n, 0);
-    glints[h].assign(n, 0);
+    at_point[h] = sight.straight(h);
+    sight.add_reflected(
+        h, [this](PilotSight::SideOfElement side) { return radiosity(side); }, at_point[h].data());
   }
-  const LuminaireLoad luminaires = beams(points, element);
-  for (std::size_t p = 0; p < packets; ++p) {
-    double common[packet_size] = {}, common_glints[packet_size] = {};
-    add_suns(points, light_.suns, points.normal, p, common, load);
-    add_luminaires(points, luminaires.even, p, common);
+  for (std::size_t p = 0; p < points.packets.size(); ++p) {
+    double lamps[packet_size] = {}, common_glints[packet_size] = {};
+    add_luminaires(points, luminaires.even, p, lamps);
     images_.add(images_.of_both_halves(), points.corners, points.packets[p], points.normal,
                 common_glints);
     for (std::uint32_t h = 0; h < halves_of_light; ++h) {
       double* sum = &at_point[h][p * packet_size];
-      std::copy_n(common, packet_size, sum);
-      add_suns(points, light_.samples[h], points.normal, p, sum, load);
-      if (!emitters_.empty()) add_emitters(points, p, h, forest_.area(element), sum, load);
-      add_surroundings(points, p, h, sum);
-      double* glint = &glints[h][p * packet_size];
+      if (!emitters_.empty()) add_emitters(points, p, h, sum, load);
+      double glint[packet_size];
       std::copy_n(common_glints, packet_size, glint);
       images_.add(images_.of_half(h), points.corners, points.packets[p], points.normal, glint);
-      for (std::size_t r = 0; r < packet_size; ++r) sum[r] += glint[r];
+      glints[h].insert(glints[h].end(), glint, glint + packet_size);
+      for (std::size_t r = 0; r < packet_size; ++r) sum[r] += lamps[r] + glint[r];
     }
   }
   const auto [mean, variance] = moments(at_point);
@@ -169,21 +107,17 @@ ElementLoad MeshPilot::load(std::size_t element, std::uint8_t side, double min_a
   return load;
 }
 
-ElementLoad MeshPilot::sources(std::size_t element, std::uint8_t side, double min_area_m2) const {
-  const double area_m2 = forest_.area(element);
-  const Points points(forest_, element, side, caster_.offset_m(), seed_,
-                      packets_for(area_m2, min_area_m2));
+ElementLoad MeshPilot::sources(const PilotPoints& points) const {
   ElementLoad load;
   look_for_suns(points, load);
   double unused[packet_size] = {};
   for (std::size_t p = 0; p < points.packets.size() && !emitters_.empty(); ++p)
-    for (std::uint32_t h = 0; h < halves_of_light; ++h)
-      add_emitters(points, p, h, area_m2, unused, load);
+    for (std::uint32_t h = 0; h < halves_of_light; ++h) add_emitters(points, p, h, unused, load);
   return load;
 }
 
 /// From the highest one down: the first that some point sees is the one that counts.
-void MeshPilot::look_for_suns(const Points& points, ElementLoad& load) const {
+void MeshPilot::look_for_suns(const PilotPoints& points, ElementLoad& load) const {
   std::vector<std::pair<double, Vec3>> suns;
   for (const auto* of : {&light_.suns, &light_.samples[0], &light_.samples[1]})
     for (const PeriodSun& sun : *of)
@@ -200,48 +134,9 @@ void MeshPilot::look_for_suns(const Points& points, ElementLoad& load) const {
       }
 }
 
-void MeshPilot::add_suns(const Points& points, const std::vector<PeriodSun>& suns, Vec3 normal,
-                         std::size_t packet, double* sum, ElementLoad& load) const {
-  for (const auto& sun : suns) {
-    const double cos_theta = dot(normal, sun.direction);
-    if (cos_theta <= 0) continue;
-    auto lit = caster_.unoccluded(points.packets[packet], sun.direction, all_rays);
-    if (lit == 0) continue;
-    load.sees_sun = true;
-    load.largest_cosine = std::max(load.largest_cosine, cos_theta);
-    for (; lit != 0; lit &= lit - 1) sum[std::countr_zero(lit)] += sun.exposure * cos_theta;
-  }
-}
-
-void MeshPilot::add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
-                                 double* sum) const {
-  const RandomWords& seeds = points.direction_seeds[half];
-  constexpr double share = 1.0 / directions_per_half;
-  static_assert(directions_per_half % packets_together == 0);
-  for (std::uint32_t first = 0; first < directions_per_half; first += packets_together) {
-    double beyond[packets_together];
-    PacketHits hits[packets_together];
-    for (std::uint32_t i = 0; i < packets_together; ++i) {
-      const std::uint32_t d = first + i;
-      const Vec3 local = sample_cosine(scrambled_sobol(d, 0, seeds), scrambled_sobol(d, 1, seeds));
-      const Vec3 w =
-          points.axes.tangent * local.x + points.axes.bitangent * local.y + points.normal * local.z;
-      beyond[i] = w.z > 0 ? light_.sky[static_cast<std::size_t>(grid_.cell(w))] : light_.ground;
-      hits[i] = caster_.first_hits(points.packets[packet], w, all_rays);
-    }
-    std::int32_t leaves[packets_together * packet_size];
-    forest_.leaves_at(hits, leaves);
-    for (std::size_t i = 0; i < packets_together; ++i)
-      for (std::size_t r = 0; r < packet_size; ++r)
-        sum[r] += share * (hits[i].triangle[r] < 0
-                               ? beyond[i]
-                               : radiosity(leaves[i * packet_size + r], hits[i].front[r]));
-  }
-}
-
 /// Points y on emitters by power: E(x) = mean of Φ cosθ cosθ' V / (π r²), the same y for all x.
-void MeshPilot::add_emitters(const Points& points, std::size_t packet, std::uint32_t half,
-                             double area_m2, double* sum, ElementLoad& load) const {
+void MeshPilot::add_emitters(const PilotPoints& points, std::size_t packet, std::uint32_t half,
+                             double* sum, ElementLoad& load) const {
   const Mesh& mesh = scene_.mesh;
   const Packet& origins = points.packets[packet];
   const RandomWords& seeds = points.emitter_seeds[half];
@@ -278,23 +173,23 @@ void MeshPilot::add_emitters(const Points& points, std::size_t packet, std::uint
     for (std::size_t r = 0; r < packet_size; ++r) {
       if (!(facing >> r & 1u) || hits.triangle[r] != emitter->triangle) continue;
       sum[r] += weight * kernel[r];
-      load.lamp_form_factor = std::max(load.lamp_form_factor, kernel[r] * area_m2);
+      load.lamp_form_factor = std::max(load.lamp_form_factor, kernel[r] * points.area_m2);
     }
   }
 }
 
-MeshPilot::LuminaireLoad MeshPilot::beams(const Points& points, std::size_t element) const {
+MeshPilot::LuminaireLoad MeshPilot::beams(const PilotPoints& points) const {
   LuminaireLoad load;
   if (light_.lamp_time_s <= 0) return load;
-  const std::array corners{forest_.corner(element, 0), forest_.corner(element, 1),
-                           forest_.corner(element, 2)};
+  const std::array corners{forest_.corner(points.element, 0), forest_.corner(points.element, 1),
+                           forest_.corner(points.element, 2)};
   for (const Luminaire& luminaire : scene_.luminaires.all) {
     if (dot(points.normal, luminaire.position - corners[0]) <= caster_.offset_m()) continue;
     if (const IntensitySteps& steps = steps_[luminaire.web]; !steps.cones.empty()) {
       const LuminaireView view(luminaire, steps, corners);
       if (view.is_dark()) continue;
       if (!view.is_even()) {
-        add_beam(points, luminaire, view, forest_.area(element), load);
+        add_beam(points, luminaire, view, load);
         continue;
       }
     }
@@ -307,8 +202,8 @@ MeshPilot::LuminaireLoad MeshPilot::beams(const Points& points, std::size_t elem
 /// meets, and dA = r² / cosθ dω,
 ///
 ///     mean E = 1/A ∫ I V dω,    mean E² = 1/A ∫ I V E dω
-void MeshPilot::add_beam(const Points& points, const Luminaire& luminaire,
-                         const LuminaireView& view, double area_m2, LuminaireLoad& load) const {
+void MeshPilot::add_beam(const PilotPoints& points, const Luminaire& luminaire,
+                         const LuminaireView& view, LuminaireLoad& load) const {
   const double height = dot(points.normal, luminaire.position - points.corners[0]);
   double mean = 0, squares = 0;
   for (std::size_t p = 0; p < beam_packets; ++p) {
@@ -325,7 +220,7 @@ void MeshPilot::add_beam(const Points& points, const Luminaire& luminaire,
       const double r = height / cos_theta;
       put(origins, s, luminaire.position + w * r);
       put(ways, s, w * -r);
-      weight[s] = I / (density * area_m2 * beam_packets * packet_size);
+      weight[s] = I / (density * points.area_m2 * beam_packets * packet_size);
       E[s] = light_.lamp_time_s * I * cos_theta / (r * r);
       facing |= 1u << s;
     }
@@ -341,7 +236,7 @@ void MeshPilot::add_beam(const Points& points, const Luminaire& luminaire,
 }
 
 /// E(x) = I cosθ V / r².
-void MeshPilot::add_luminaires(const Points& points,
+void MeshPilot::add_luminaires(const PilotPoints& points,
                                const std::vector<const Luminaire*>& luminaires, std::size_t packet,
                                double* sum) const {
   const Packet& origins = points.packets[packet];
@@ -365,11 +260,8 @@ void MeshPilot::add_luminaires(const Points& points,
   }
 }
 
-double MeshPilot::radiosity(std::int32_t leaf, bool front) const {
-  if (leaf < 0) return 0;
-  const auto element = static_cast<std::size_t>(leaf);
-  if (!front && !forest_.is_two_sided(element)) return 0;
-  return typical_reflectance * load_of(element, front ? 0 : 1);
+double MeshPilot::radiosity(PilotSight::SideOfElement side) const {
+  return typical_reflectance * static_cast<double>(load_[static_cast<std::size_t>(side)]);
 }
 
 }  // namespace sunload

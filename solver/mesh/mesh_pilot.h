@@ -17,6 +17,7 @@
 #include "geo/sky/sky.h"
 #include "solver/mesh/element_forest.h"
 #include "solver/mesh/period_light.h"
+#include "solver/mesh/pilot_sight.h"
 #include "solver/mesh/sun_images.h"
 #include "solver/surface/luminaire_view.h"
 #include "solver/surface/ray_caster.h"
@@ -44,13 +45,26 @@ class MeshPilot {
   MeshPilot(const ElementForest& forest, const Scene& scene, const RayCaster& caster,
             const PeriodLight& light, std::uint64_t seed);
 
-  /// Load of one side (0 front, 1 back) of an element. Cost: 16 rays for every direction and
-  /// packet of points; large elements have more packets.
-  ElementLoad load(std::size_t element, std::uint8_t side, double min_area_m2) const;
+  /// Points on one side (0 front, 1 back) of an element: large ones have more packets.
+  PilotPoints points(std::size_t element, std::uint8_t side, double min_area_m2) const {
+    return {forest_, element, side, caster_.offset_m(), min_area_m2, seed_};
+  }
+  /// What is seen from there, which serves all pilots that see alike.
+  PilotSight sight(std::size_t element, std::uint8_t side, double min_area_m2) const {
+    return {forest_, caster_, light_, grid_, points(element, side, min_area_m2)};
+  }
+  bool sees_as(const MeshPilot& other) const {
+    return &forest_ == &other.forest_ && &caster_ == &other.caster_ && &light_ == &other.light_ &&
+           seed_ == other.seed_;
+  }
+
+  /// Load of the side that has that sight. Cost: 16 rays for every mirror image of a sun, point of
+  /// an emitter and luminaire, and packet.
+  ElementLoad load(const PilotSight& sight) const;
 
   /// Which sources an element's side sees, and how: `sees_sun`, `largest_cosine` and
   /// `lamp_form_factor` alone, as `load` has them, in a small part of its time.
-  ElementLoad sources(std::size_t element, std::uint8_t side, double min_area_m2) const;
+  ElementLoad sources(const PilotPoints& points) const;
 
   /// Whether suns are seen in mirrors, wherever that may be.
   bool has_glints() const { return images_.any(); }
@@ -64,30 +78,24 @@ class MeshPilot {
   void add_children_of(std::size_t element);
 
  private:
-  struct Points;
   struct Emitter {
     std::int32_t triangle;
     double power_share;  ///< of this one and all before it
   };
-  void add_suns(const Points& points, const std::vector<PeriodSun>& suns, Vec3 normal,
-                std::size_t packet, double* sum, ElementLoad& load) const;
-  void look_for_suns(const Points& points, ElementLoad& load) const;
-  void add_emitters(const Points& points, std::size_t packet, std::uint32_t half, double area_m2,
-                    double* sum, ElementLoad& load) const;
+  void look_for_suns(const PilotPoints& points, ElementLoad& load) const;
+  void add_emitters(const PilotPoints& points, std::size_t packet, std::uint32_t half, double* sum,
+                    ElementLoad& load) const;
   /// Luminaires to which an element is even, and what the beams of the others bring.
   struct LuminaireLoad {
     std::vector<const Luminaire*> even;
     double mean = 0, variance = 0;
   };
-  LuminaireLoad beams(const Points& points, std::size_t element) const;
-  void add_beam(const Points& points, const Luminaire& luminaire, const LuminaireView& view,
-                double area_m2, LuminaireLoad& load) const;
-  void add_luminaires(const Points& points, const std::vector<const Luminaire*>& luminaires,
+  LuminaireLoad beams(const PilotPoints& points) const;
+  void add_beam(const PilotPoints& points, const Luminaire& luminaire, const LuminaireView& view,
+                LuminaireLoad& load) const;
+  void add_luminaires(const PilotPoints& points, const std::vector<const Luminaire*>& luminaires,
                       std::size_t packet, double* sum) const;
-  void add_surroundings(const Points& points, std::size_t packet, std::uint32_t half,
-                        double* sum) const;
-  /// Of the side that a ray has met.
-  double radiosity(std::int32_t leaf, bool front) const;
+  double radiosity(PilotSight::SideOfElement side) const;
 
   const ElementForest& forest_;
   const Scene& scene_;

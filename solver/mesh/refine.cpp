@@ -52,7 +52,7 @@ MeshKind kind_of(Surface surface, double distance_m) {
 std::size_t facing_of(Vec3 normal) {
   if (std::abs(normal.z) > cos_of_level) return sectors + (normal.z > 0 ? 0 : 1);
   const double turns = std::atan2(normal.y, normal.x) / (2 * pi) + 1;
-  return static_cast<std::size_t>(turns * sectors + 0.5) % sectors;
+  return static_cast<std::size_t>(std::lround(turns * sectors)) % sectors;
 }
 
 /// What the historic oracle goes by: its largest estimates.
@@ -67,6 +67,9 @@ struct FacingSum {
 
 /// Kinds, and of each whether something holds.
 using OfKinds = std::array<bool, mesh_kinds>;
+
+/// Mean light load of both sides of an element [J m-2].
+using LoadOfSides = std::array<double, 2>;
 
 /// A pilot and what it says.
 struct Look {
@@ -131,11 +134,20 @@ class Refinement {
         elements_per_task);
   }
 
-  LoadEstimate estimate(const MeshPilot& pilot, std::size_t leaf, double (&loads)[2]) const {
+  using Sights = std::vector<PilotSight>;  // of each side
+  Sights sights_of(const MeshPilot& pilot, std::size_t leaf) const {
+    Sights sights;
+    for (std::uint8_t side = 0; side < sides_of(leaf); ++side)
+      sights.push_back(pilot.sight(leaf, side, split_.min_area_m2));
+    return sights;
+  }
+
+  LoadEstimate estimate(const MeshPilot& pilot, std::size_t leaf, const Sights& sights,
+                        LoadOfSides& loads) const {
     LoadEstimate e;
     const double weighted = places_[leaf].weighted_m2 * places_[leaf].stands_for;
-    for (std::uint8_t side = 0; side < sides_of(leaf); ++side) {
-      const ElementLoad load = pilot.load(leaf, side, split_.min_area_m2);
+    for (std::size_t side = 0; side < sights.size(); ++side) {
+      const ElementLoad load = pilot.load(sights[side]);
       loads[side] = load.mean;
       e.squared_error += squared_error(load.variance, weighted);
       e.power += load.mean * weighted;
@@ -152,7 +164,7 @@ class Refinement {
     HistoricEstimate e;
     const double area = forest_.area(leaf);
     for (std::uint8_t side = 0; side < sides_of(leaf); ++side) {
-      const ElementLoad load = pilot.sources(leaf, side, split_.min_area_m2);
+      const ElementLoad load = pilot.sources(pilot.points(leaf, side, split_.min_area_m2));
       e.by_emitters = std::max(e.by_emitters, load.lamp_form_factor);
       if (load.sees_sun)
         e.by_suns_m2 =
@@ -163,22 +175,27 @@ class Refinement {
 
   /// Estimates of leaves, which then are what others see of them.
   void look_at(const Leaves& leaves) {
-    for (Look& look : looks_) {
-      look.estimates.resize(forest_.elements().size());
-      std::vector<std::pair<double, double>> loads(leaves.size());
-      parallel_for(
-          leaves.size(),
-          [&](std::size_t l) {
-            double of_sides[2] = {};
-            look.estimates[leaves[l]] = estimate(look.pilot, leaves[l], of_sides);
-            loads[l] = {of_sides[0], of_sides[1]};
-          },
-          elements_per_task);
-      for (std::size_t l = 0; l < leaves.size(); ++l) {
-        look.pilot.set_load(leaves[l], 0, loads[l].first);
-        look.pilot.set_load(leaves[l], 1, loads[l].second);
-      }
+    std::vector<std::vector<LoadOfSides>> loads(looks_.size());
+    for (std::size_t k = 0; k < looks_.size(); ++k) {
+      looks_[k].estimates.resize(forest_.elements().size());
+      loads[k].resize(leaves.size());
     }
+    parallel_for(
+        leaves.size(),
+        [&](std::size_t l) {
+          Sights sights;
+          for (std::size_t k = 0; k < looks_.size(); ++k) {
+            Look& look = looks_[k];
+            if (k == 0 || !look.pilot.sees_as(looks_[k - 1].pilot))
+              sights = sights_of(look.pilot, leaves[l]);
+            look.estimates[leaves[l]] = estimate(look.pilot, leaves[l], sights, loads[k][l]);
+          }
+        },
+        elements_per_task);
+    for (std::size_t k = 0; k < looks_.size(); ++k)
+      for (std::size_t l = 0; l < leaves.size(); ++l)
+        for (std::uint8_t side = 0; side < 2; ++side)
+          looks_[k].pilot.set_load(leaves[l], side, loads[k][l][side]);
   }
 
   LoadSums sums_of(const Look& look) const {

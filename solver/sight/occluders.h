@@ -27,6 +27,10 @@ class Occluders {
   bool is_opaque(std::size_t triangle) const {
     return transmittance_.empty() || transmittance_[triangle] <= 0;
   }
+  /// Some rays pass it, others do not.
+  bool is_screen(std::size_t triangle) const {
+    return !is_opaque(triangle) && transmittance_[triangle] < 1;
+  }
   /// Triangles that have both ends of the edge from corner k to the next, it among them.
   std::span<const std::int32_t> at_edge(std::size_t triangle, std::size_t k) const;
 

@@ -16,7 +16,7 @@ SunFaces::SunFaces(const Scene& scene, double flat_m) {
   for (std::size_t t = 0; t < occluders.triangle_count(); ++t) {
     const Vec3 a = occluders.corner(t, 0), b = occluders.corner(t, 1), c = occluders.corner(t, 2);
     const Vec3 area2 = cross(b - a, c - a);
-    if (occluders.is_opaque(t) || norm(area2) <= 0) continue;
+    if (!occluders.is_screen(t) || norm(area2) <= 0) continue;
     add({a, b, c}, normalized(area2), true, Closed::no);
   }
 }

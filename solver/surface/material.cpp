@@ -97,7 +97,10 @@ Screens screens(const Scene& scene) {
   std::vector<std::uint64_t> number_in_object(mesh.object_names.size(), 0);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const auto object = mesh.triangle_object[t].index();
-    screens.transmittance.push_back(static_cast<float>(scene.material_of(t).transmittance));
+    // The underside of a crown that lies against a roof is no patch: light that it stopped would be
+    // lost, and no ray could tell it from the roof.
+    const double T = scene.material_of(t).transmittance;
+    screens.transmittance.push_back(T > 0 && !mesh.bears_patches(t) ? 1 : static_cast<float>(T));
     screens.key.push_back(mixed(text_key(mesh.object_names[object]), number_in_object[object]++));
   }
   return screens;

@@ -190,10 +190,11 @@ void note_crossings(const RTCFilterFunctionNArguments* hits, const Screens& scre
     if (hits->valid[r] == 0) continue;
     const float T = screens.transmittance[RTCHitN_primID(hits->hit, hits->N, r)];
     if (T <= 0) continue;
+    hits->valid[r] = 0;
+    if (T >= 1) continue;
     Passage::Crossing crossing = crossing_of(hits, r);
     crossing.transmittance = T;
     passage.cross(crossing);
-    hits->valid[r] = 0;
   }
 }
 

@@ -105,6 +105,56 @@ Balance closed_ledger(const Solved& solved) {
   return {residual, in};
 }
 
+/// A crown that stands on a roof. Its underside is a floor, or is not there.
+enum class Underside { floor, none };
+Scene crown_on_a_roof(Underside underside) {
+  SceneBuilder builder;
+  const int roof = builder.material({"roof", 0.6}), leaves = builder.material(crown(0.173, 0.175));
+  builder.object("roof").quad({-5, -5, 5}, {5, -5, 5}, {5, 5, 5}, {-5, 5, 5}, roof);
+  builder.sides(Sides::two);
+  constexpr double a = 2, low = 5, high = 8;
+  builder.object("crown")
+      .quad({-a, -a, high}, {a, -a, high}, {a, a, high}, {-a, a, high}, leaves)
+      .quad({-a, -a, low}, {a, -a, low}, {a, -a, high}, {-a, -a, high}, leaves)
+      .quad({a, -a, low}, {a, a, low}, {a, a, high}, {a, -a, high}, leaves)
+      .quad({a, a, low}, {-a, a, low}, {-a, a, high}, {a, a, high}, leaves)
+      .quad({-a, a, low}, {-a, -a, low}, {-a, -a, high}, {-a, a, high}, leaves);
+  if (underside == Underside::none) return builder.scene();
+  builder.object("under").quad({-a, a, low}, {a, a, low}, {a, -a, low}, {-a, -a, low}, leaves);
+  Scene scene = builder.scene();
+  for (std::size_t t = scene.mesh.triangle_count() - 2; t < scene.mesh.triangle_count(); ++t)
+    scene.mesh.triangle_surface[t] = Surface::floor;
+  return scene;
+}
+
+// Rays cannot tell the underside from the roof: what the roof sends on, of the sun and of the sky,
+// is seen by the crown from within, however it comes to be known.
+TEST(Screens, UndersideOfACrownOnARoofTakesNoLight) {
+  const auto light = with_uniform_sky(one_second(normalized({0.3, 0.2, 0.9}), 800), 100);
+  for (const Transport transport : {Transport::gather, Transport::shoot}) {
+    auto rules = test_rules();
+    rules.transport = transport;
+    rules.lines_per_patch = 16 * 64;
+    const SplitRules split{.max_edge_m = 1};
+    const Solved touches = solve(crown_on_a_roof(Underside::floor), {light}, rules, split),
+                 open = solve(crown_on_a_roof(Underside::none), {light}, rules, split);
+    for (const bool of_roof : {true, false}) {
+      const auto chosen = [&](const Solved& solved) {
+        return solved.means(
+            [&](std::size_t i) { return (solved.patches[i].triangle < 2) == of_roof; });
+      };
+      auto differences = chosen(touches);
+      const auto truth = chosen(open);
+      const double mean = mean_error(truth).mean;
+      for (std::size_t r = 0; r < truth.size(); ++r) differences[r] -= truth[r];
+      const Verdict verdict = expect_mean(differences, 0, float_rounding * mean);
+      EXPECT_TRUE(verdict) << verdict.text;
+      EXPECT_FALSE(expect_mean(differences, 0.01 * mean, float_rounding * mean));
+    }
+    closed_ledger(touches);
+  }
+}
+
 TEST(Screens, LedgerOfAShadedCourtCloses) {
   auto rules = test_rules();
   rules.bounces = 20;

@@ -5,8 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
+#include <vector>
 
 #include "geo/mesh/covers.h"
 #include "tests/geo/mesh/mesh_prepare_models.h"
@@ -44,6 +48,13 @@ void expect_whole_and_closed(const PreparedMesh& cut, double area_m2, double vol
   EXPECT_NEAR(bodies.bodies.front().volume, volume_m3, rounding_of_cuts);
 }
 
+/// All triangles may be cut.
+std::vector<std::size_t> cut_all(PreparedMesh& of, const PlaneOfFace& plane_of) {
+  std::vector<std::size_t> all(of.mesh.triangle_count());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return cut_faces(of.mesh, of.bodies, all, std::array{plane_of});
+}
+
 PreparedMesh house() {
   return ModelBuilder().object("house").box({0, 0, 0}, {10, 8, 6}).prepared();
 }
@@ -54,7 +65,7 @@ TEST(CutFaces, AtAHeightWallsHaveTwoParts) {
   FacePlane plane;
   plane.offset = 4;
   const std::size_t before = cut.mesh.triangle_count();
-  const auto source = cut_faces(cut.mesh, cut.bodies, [&](std::size_t) { return plane; });
+  const auto source = cut_all(cut, [&](std::size_t) { return plane; });
   EXPECT_EQ(source.size(), cut.mesh.triangle_count());
   EXPECT_GT(source.size(), before);
   expect_whole_and_closed(cut, area_of_house, volume_of_house);
@@ -71,7 +82,7 @@ TEST(CutFaces, SlantingPlanesOfTheirOwnCutEveryTriangle) {
       plane.normal = normalized(Vec3{any(random), any(random), any(random)});
       plane.offset = dot(plane.normal, Vec3{5, 4, 3}) + any(random);
     }
-    const auto source = cut_faces(cut.mesh, cut.bodies, [&](std::size_t t) { return planes[t]; });
+    const auto source = cut_all(cut, [&](std::size_t t) { return planes[t]; });
     expect_whole_and_closed(cut, area_of_house, volume_of_house);
     for (std::size_t t = 0; t < source.size(); ++t) {
       const FacePlane& plane = planes[source[t]];
@@ -95,10 +106,10 @@ TEST(CutFaces, OnlyWhatLiesBetweenTheEndsIsCut) {
   plane.to = 20;
   PreparedMesh cut = house();
   const auto triangles = cut.mesh.triangles;
-  cut_faces(cut.mesh, cut.bodies, [&](std::size_t) { return plane; });
+  cut_all(cut, [&](std::size_t) { return plane; });
   EXPECT_EQ(cut.mesh.triangles, triangles);
   plane.from = 9.5;  // the east wall, and what of top and bottom it meets
-  cut_faces(cut.mesh, cut.bodies, [&](std::size_t) { return plane; });
+  cut_all(cut, [&](std::size_t) { return plane; });
   EXPECT_GT(cut.mesh.triangle_count(), triangles.size());
   expect_whole_and_closed(cut, area_of_house, volume_of_house);
   for (std::size_t t = 0; t < cut.mesh.triangle_count(); ++t) {
@@ -116,9 +127,55 @@ TEST(CutFaces, ThroughCornersAndAlongEdgesNothingIsCut) {
   const auto triangles = cut.mesh.triangles;
   for (const double height : {0.0, 1e-4, 6.0, 6.0 - 1e-4, 7.0}) {
     plane.offset = height;
-    cut_faces(cut.mesh, cut.bodies, [&](std::size_t) { return plane; });
+    cut_all(cut, [&](std::size_t) { return plane; });
     EXPECT_EQ(cut.mesh.triangles, triangles) << height;
   }
+}
+
+// Planes one after the other, some triangles alone: these and what shares their edges are divided,
+// all others are as they were, and parts of the mesh are those that come apart from it.
+TEST(CutFaces, SomeTrianglesAlongOnePlaneAfterTheOther) {
+  PreparedMesh cut = house();
+  const Mesh before = cut.mesh;
+  std::vector<std::size_t> roof;
+  for (std::size_t t = 0; t < before.triangle_count(); ++t)
+    if (before.normal(t).z > 0.5) roof.push_back(t);
+  std::vector<PlaneOfFace> planes;
+  for (const double x : {2.0, 5.0, 9.0})
+    planes.push_back([x](std::size_t) {
+      FacePlane plane;
+      plane.normal = {1, 0, 0};
+      plane.offset = x;
+      return plane;
+    });
+  const FaceParts parts = parts_of_faces(before, roof, planes);
+  const auto source = cut_faces(cut.mesh, cut.bodies, roof, planes);
+  expect_whole_and_closed(cut, area_of_house, volume_of_house);
+  double divided_m2 = 0, roof_m2 = 0;
+  for (std::size_t t = 0; t < source.size(); ++t) {
+    const bool is_roof = std::find(roof.begin(), roof.end(), source[t]) != roof.end();
+    if (parts.is_divided[source[t]] == 0) {
+      EXPECT_FALSE(is_roof);
+      EXPECT_EQ(cut.mesh.triangles[t], before.triangles[source[t]]);
+      continue;
+    }
+    divided_m2 += norm(cut.mesh.area_vector2(t)) / 2;
+    if (!is_roof) continue;
+    roof_m2 += norm(cut.mesh.area_vector2(t)) / 2;
+    std::size_t strip = 0;
+    const double middle = cut.mesh.point(t, 1.0 / 3, 1.0 / 3).x;
+    for (const double x : {2.0, 5.0, 9.0}) strip += middle > x ? 1 : 0;
+    constexpr std::array ends{0.0, 2.0, 5.0, 9.0, 10.0};
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_GE(cut.mesh.corner(t, k).x, ends[strip] - rounding_of_cuts);
+      EXPECT_LE(cut.mesh.corner(t, k).x, ends[strip + 1] + rounding_of_cuts);
+    }
+  }
+  EXPECT_NEAR(roof_m2, 80, rounding_of_cuts);
+  double of_parts = 0;
+  for (std::size_t p = 0; p < parts.source.size(); ++p)
+    if (parts.is_divided[parts.source[p]] != 0) of_parts += norm(parts.mesh.area_vector2(p)) / 2;
+  EXPECT_NEAR(of_parts, divided_m2, rounding_of_cuts);
 }
 
 }  // namespace

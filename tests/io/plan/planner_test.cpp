@@ -45,6 +45,21 @@ TEST(Planner, PlansAreThoseMadeAlone) {
   };
   for (const double north_deg : {20, 200, 20, 0})
     add([&](Study& s) { s.site.north_deg = north_deg; });
+  // Where faces are cut may depend on where north is.
+  NamedSelection south;
+  south.name = "south";
+  south.of.surface = "wall";
+  south.of.height_m = {0, 2};
+  for (const auto of_north : {true, false})
+    for (const double north_deg : {0, 90, 0}) {
+      south.of.azimuth_deg.reset();
+      if (of_north) south.of.azimuth_deg = {135, 225};
+      south.of.facade = of_north ? "" : "*/south*";
+      add([&](Study& s) {
+        s.scene.cut = {south};
+        s.site.north_deg = north_deg;
+      });
+    }
   add([](Study& s) { s.solver.sun_samples_per_interval = 3; });
   add([](Study& s) { s.site.latitude_deg = 60; });
   add([](Study& s) { s.light.linke_turbidity.monthly.fill(5); });
@@ -58,6 +73,7 @@ TEST(Planner, PlansAreThoseMadeAlone) {
     const VariantPlan shared = planner.plan(study), alone = make_plan(study);
     EXPECT_EQ(shared.content_hash, alone.content_hash);
     EXPECT_EQ(shared.pairing_id, alone.pairing_id);
+    EXPECT_EQ(shared.built.scene.mesh.triangles, alone.built.scene.mesh.triangles);
     EXPECT_EQ(shared.built.warnings, alone.built.warnings);
     EXPECT_EQ(shared.built.notes, alone.built.notes);
     EXPECT_EQ(shared.light.notes, alone.light.notes);

@@ -140,6 +140,24 @@ TEST_F(Selections, FacesAreCutAlongTheirEnds) {
   }
 }
 
+// The half of a rectangle is as large as one of its triangles, of which half lies beyond it.
+TEST_F(Selections, WholeTrianglesOfTheSameAreaAreWarnedOf) {
+  const std::string east =
+      "a: {object: one, surface: roof, polygon: [[-10, -20], [0, -20], [0, 20], [-10, 20]]}";
+  const BuiltScene whole = build_scene(study(east, "  assign: [{selection: a, material: red}]"));
+  EXPECT_NEAR(area_of("red", whole), 50, rounding_m2);
+  ASSERT_FALSE(whole.warnings.empty());
+  EXPECT_NE(whole.warnings.back().find("of 50 m2 that selection 'a' holds 12.5 m2 do not get "
+                                       "material 'red', and 12.5 m2 beside them do"),
+            std::string::npos)
+      << whole.warnings.back();
+  // A rule that gives nothing of what is cut is none to warn of.
+  const BuiltScene other =
+      build_scene(study(east, "  assign: [{selection: a, surface: wall, material: red}]"));
+  for (const auto& warning : other.warnings)
+    EXPECT_EQ(warning.find("scene.cut"), std::string::npos) << warning;
+}
+
 TEST_F(Selections, CutsAreHashedByWhatTheyAre) {
   const auto text = [&](const std::string& height) {
     return canonical_text(study("a: {height_m: [0, " + height + "]}", "  cut: [a]"));

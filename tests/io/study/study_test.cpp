@@ -606,8 +606,13 @@ TEST(Study, WarnsOfValuesWithoutEffect) {
   const auto warnings = read_text(with({{"light", "{turbidity: 4, dni_w_m2: 3}"}})).warnings;
   EXPECT_EQ(warnings.size(), 2u);
   EXPECT_TRUE(has(warnings, "light.turbidity: is not used")) << joined(warnings);
+  // Bird takes its aerosols from it.
   const auto bird = read_text(with({{"light", "{model: bird, linke_turbidity: 3}"}})).warnings;
-  EXPECT_TRUE(has(bird, "light.linke_turbidity: is not used")) << joined(bird);
+  EXPECT_FALSE(has(bird, "light.linke_turbidity")) << joined(bird);
+  const auto plain = read_text(with({{"light", "{model: haurwitz, linke_turbidity: 3}"}})).warnings;
+  EXPECT_TRUE(
+      has(plain, "light.linke_turbidity: is not used (it belongs to model: ineichen or bird"))
+      << joined(plain);
   EXPECT_TRUE(has(
       read_text(with({{"period", "{instants: [2026-06-21T12:00, 2026-06-21T12:10]}"}})).warnings,
       "intervals overlap"));

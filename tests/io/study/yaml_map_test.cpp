@@ -113,6 +113,33 @@ TEST(Yaml, LimitsBombs) {
   EXPECT_NE(self[0].find("contains itself"), std::string::npos) << self[0];
 }
 
+// What is written with a unit is told in that of the key; 33 degrees south are -33.
+TEST(Yaml, UnitsBesideNumbersAreTold) {
+  const auto hint = [](const std::string& key, const std::string& text) {
+    const auto problems = problems_of(key + ": " + text, [&](YamlMap& map) {
+      map.number(key, {-1e9, 1e9}, 0);
+    });
+    const auto at = problems.empty() ? std::string::npos : problems[0].find("; ");
+    return at == std::string::npos ? std::string() : problems[0].substr(at + 2);
+  };
+  const std::string degrees = " alone, it is in degrees", metres = " alone, it is in metres";
+  EXPECT_EQ(hint("latitude_deg", "33.45S"), "write -33.45" + degrees);
+  EXPECT_EQ(hint("latitude_deg", "S 33.45"), "write -33.45" + degrees);
+  EXPECT_EQ(hint("longitude_deg", "70.66 W"), "write -70.66" + degrees);
+  EXPECT_EQ(hint("longitude_deg", "14.5E"), "write 14.5" + degrees);
+  EXPECT_EQ(hint("latitude_deg", "50 °"), "write 50" + degrees);
+  for (const char* text : {"33d27m S", "north", "33 27 S"})
+    EXPECT_EQ(hint("latitude_deg", text),
+              std::string(text) == "north"
+                  ? ""
+                  : "write decimal degrees alone; south and west are below 0");
+  EXPECT_EQ(hint("max_edge_m", "50cm"), "write 0.5" + metres);
+  EXPECT_EQ(hint("max_edge_m", "2 m"), "write 2" + metres);
+  EXPECT_EQ(hint("elevation_m", "1706 ft"), "write 519.9888" + metres);
+  EXPECT_EQ(hint("elevation_m", "1706 furlongs"), "write a number" + metres);
+  EXPECT_EQ(hint("step_min", "1h"), "write 60 alone, it is in minutes");
+}
+
 TEST(Yaml, ReadsNumbersStrictly) {
   const auto one = [](const std::string& text) {
     const auto problems = problems_of("share: " + text, read_share);
@@ -125,6 +152,7 @@ TEST(Yaml, ReadsNumbersStrictly) {
   EXPECT_EQ(one("\"0.5\""), start + "'0.5' is no number; leave out the quotes");
   EXPECT_EQ(one("0,5"), start + "'0,5' is no number; write 0.5");
   EXPECT_EQ(one("0.5 m"), start + "'0.5 m' is no number; write 0.5 alone");
+  EXPECT_EQ(one("20 %"), start + "'20 %' is no number; write 0.2 alone");
   for (const char* wrong : {".nan", "nan", ".inf", "-.inf", "inf", "0x1", "1e999", "true", "1_0",
                             "--1", "0.1.2", "1e"}) {
     EXPECT_EQ(one(wrong), start + "'" + wrong + "' is no number");
