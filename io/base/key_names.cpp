@@ -18,14 +18,17 @@ struct UnitSuffix {
 
 // Those that studies use and those that users write instead; longer ones first where one
 // ends like another.
-constexpr std::array<UnitSuffix, 21> unit_suffixes{
-    {{"_w_m2", "W/m²"},        {"_kw_m2", "kW/m²"},     {"_wm2", "W/m²"},
-     {"_m2", "square metres"}, {"_degrees", "degrees"}, {"_degree", "degrees"},
-     {"_deg", "degrees"},      {"_rad", "radians"},     {"_minutes", "minutes"},
-     {"_min", "minutes"},      {"_hours", "hours"},     {"_hour", "hours"},
-     {"_seconds", "seconds"},  {"_sec", "seconds"},     {"_km", "kilometres"},
-     {"_cm", "centimetres"},   {"_mm", "millimetres"},  {"_m", "metres"},
-     {"_h", "hours"},          {"_s", "seconds"},       {"_w", "watts"}}};
+constexpr std::array<UnitSuffix, 28> unit_suffixes{
+    {{"_cd_m2", "cd/m²"},     {"_lm_m2", "lm/m²"},      {"_per_m", "1/m"},
+     {"_percent", "percent"}, {"_lx", "lux"},           {"_lm", "lumens"},
+     {"_cd", "candelas"},     {"_w_m2", "W/m²"},        {"_kw_m2", "kW/m²"},
+     {"_wm2", "W/m²"},        {"_m2", "square metres"}, {"_degrees", "degrees"},
+     {"_degree", "degrees"},  {"_deg", "degrees"},      {"_rad", "radians"},
+     {"_minutes", "minutes"}, {"_min", "minutes"},      {"_hours", "hours"},
+     {"_hour", "hours"},      {"_seconds", "seconds"},  {"_sec", "seconds"},
+     {"_km", "kilometres"},   {"_cm", "centimetres"},   {"_mm", "millimetres"},
+     {"_m", "metres"},        {"_h", "hours"},          {"_s", "seconds"},
+     {"_w", "watts"}}};
 
 const UnitSuffix* suffix_of(std::string_view key) {
   const auto found =
@@ -40,7 +43,7 @@ struct WrittenUnit {
   std::string_view word, unit;
   double factor;
 };
-constexpr std::array<WrittenUnit, 52> written_units{{
+constexpr std::array<WrittenUnit, 59> written_units{{
     {"m", "metres", 1},
     {"metre", "metres", 1},
     {"metres", "metres", 1},
@@ -62,14 +65,6 @@ constexpr std::array<WrittenUnit, 52> written_units{{
     {"degree", "degrees", 1},
     {"degrees", "degrees", 1},
     {"rad", "degrees", 57.29577951308232},
-    {"N", "degrees", 1},
-    {"E", "degrees", 1},
-    {"S", "degrees", -1},
-    {"W", "degrees", -1},
-    {"°N", "degrees", 1},
-    {"°E", "degrees", 1},
-    {"°S", "degrees", -1},
-    {"°W", "degrees", -1},
     {"min", "minutes", 1},
     {"minute", "minutes", 1},
     {"minutes", "minutes", 1},
@@ -93,6 +88,21 @@ constexpr std::array<WrittenUnit, 52> written_units{{
     {"kW", "watts", 1e3},
     {"%", "", 1e-2},
     {"percent", "", 1e-2},
+    {"%", "percent", 1},
+    {"percent", "percent", 1},
+    {"lx", "lux", 1},
+    {"lux", "lux", 1},
+    {"klx", "lux", 1e3},
+    {"lm", "lumens", 1},
+    {"klm", "lumens", 1e3},
+    {"cd", "candelas", 1},
+    {"kcd", "candelas", 1e3},
+    {"cd/m2", "cd/m²", 1},
+    {"cd/m²", "cd/m²", 1},
+    {"kcd/m2", "cd/m²", 1e3},
+    {"1/m", "1/m", 1},
+    {"/m", "1/m", 1},
+    {"/mm", "1/m", 1e3},
 }};
 
 std::string_view without_unit(std::string_view key) {
@@ -146,6 +156,11 @@ std::optional<double> factor_to_unit(std::string_view word, std::string_view uni
       std::find_if(written_units.begin(), written_units.end(),
                    [&](const WrittenUnit& of) { return of.word == word && of.unit == unit; });
   return found == written_units.end() ? std::nullopt : std::optional(found->factor);
+}
+
+bool is_plain_unit(std::string_view word) {
+  return std::any_of(written_units.begin(), written_units.end(),
+                     [&](const WrittenUnit& of) { return of.word == word && of.factor == 1; });
 }
 
 std::string key_hint(const std::string& unknown, const std::vector<std::string>& known) {

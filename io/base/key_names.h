@@ -25,5 +25,7 @@ std::string unit_of_key(std::string_view key);
 /// unit_of_key names it: 0.01 for "cm" and "metres", -1 for "S" (south) and "degrees". Nothing
 /// where the word is no unit of that kind.
 std::optional<double> factor_to_unit(std::string_view word, std::string_view unit);
+/// Whether it is a unit without a prefix: a number before it is one of that unit.
+bool is_plain_unit(std::string_view word);
 
 }  // namespace sunload

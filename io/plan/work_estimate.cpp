@@ -413,6 +413,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const double rows = plan.steps.empty() ? lit : static_cast<double>(plan.steps.size());
   const double further_series = bands * n * rows * std::max(0.0, series - 1) * s_per_further_value;
   work.is_of_this_machine = pace.is_measured;
+  // Of a disk the model itself goes by samples.
+  const double mirror_pace = plan.study.sun.disk == SunDisk::finite
+                                 ? pace.mirror
+                                 : pace.mirror_with(counts.direct_samples);
   // The trial of a period of few solutions has no sky, and none has that of parts.
   const double untried =
       (of_few ? circumsolar_rays * s_per_circumsolar_ray : 0) +
@@ -420,7 +424,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   // Series are put together by one thread.
   work.seconds =
       files + (s_to_start + untried + further_series + core.lines * pace.lines +
-               core.direct * pace.direct + core.mirror * pace.mirror + core.solve * pace.solve) /
+               core.direct * pace.direct + core.mirror * mirror_pace + core.solve * pace.solve) /
                   thread_count();
   return work;
 }

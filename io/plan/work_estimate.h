@@ -15,7 +15,16 @@ namespace sunload {
 /// kind of work.
 struct WorkPace {
   double lines = 1, direct = 1, mirror = 1, solve = 1;
+  /// Of the time for mirrors the share that goes to rays, of which each sample of a sun has some:
+  /// light that goes from mirror to mirror; and the samples with which that was measured.
+  double rays_of_mirrors = 0;
+  int direct_samples = 0;
   bool is_measured = false;  ///< io/plan/work_probe.h
+  /// What mirrors take with so many samples.
+  double mirror_with(int samples) const {
+    if (direct_samples <= 0) return mirror;
+    return mirror * (1 + rays_of_mirrors * (static_cast<double>(samples) / direct_samples - 1));
+  }
 };
 
 /// What a variant will cost.

@@ -11,6 +11,8 @@
 #include "io/plan/interval_lights.h"
 #include "io/plan/rules_of_study.h"
 #include "solver/base/chunks.h"
+#include "solver/base/cost.h"
+#include "solver/base/threads.h"
 #include "solver/solver.h"
 
 namespace sunload {
@@ -150,6 +152,10 @@ std::optional<WorkPace> measured_pace(const VariantPlan& plan,
   pace.lines = ratio(traced->work[Work::lines_s], modelled.lines);
   pace.direct = ratio(done[Work::direct_s], modelled.direct);
   pace.mirror = ratio(done[Work::mirror_s], modelled.mirror);
+  pace.direct_samples = rules.direct_samples;
+  if (done[Work::mirror_s] > 0)
+    pace.rays_of_mirrors = std::min(1.0, done[Work::mirror_rays] * cost::s_per_mirror_ray /
+                                             (thread_count() * done[Work::mirror_s]));
   pace.solve = ratio(done[Work::solve_s], modelled.solve);
   return pace;
 }

@@ -35,29 +35,44 @@ std::string_view without_spaces(std::string_view text) {
   return text;
 }
 
-/// Of a number and a unit, or points of the compass also before it. `unit`: what the key is in.
-std::string hint_of_unit(std::string_view text, const std::string& unit) {
-  constexpr std::string_view in_numbers = "0123456789.eE+-";
-  auto begin = text.find_first_of("0123456789.+-");
+/// What a number beside this word is multiplied by for a key: points of the compass are signs of
+/// latitudes and longitudes.
+std::optional<double> factor_for_key(std::string_view word, const std::string& key,
+                                     const std::string& unit) {
+  const std::string_view compass = key.starts_with("latitude")    ? "NS"
+                                   : key.starts_with("longitude") ? "EW"
+                                                                  : "";
+  std::string_view letter = word;
+  if (letter.starts_with("°")) letter.remove_prefix(std::string_view("°").size());
+  if (letter.size() == 1 && compass.find(letter) != compass.npos)
+    return letter == "S" || letter == "W" ? -1 : 1;
+  return factor_to_unit(word, unit);
+}
+
+/// Of a number and a unit after it, or a point of the compass before or after it.
+std::string hint_of_unit(std::string_view text, const std::string& key) {
+  const std::string unit = unit_of_key(key);
+  const std::string is_in = unit.empty() ? "" : ", it is in " + unit;
+  const auto begin = text.find_first_of("0123456789.+-");
   if (begin == text.npos) return "";
-  auto end = std::min(text.find_first_not_of(in_numbers, begin), text.size());
+  auto end = std::min(text.find_first_not_of("0123456789.eE+-", begin), text.size());
   // "70E" has no exponent.
   if (unit == "degrees" && end > begin + 1 && text[end - 1] == 'E') --end;
   const std::string_view head = text.substr(begin, end - begin);
   const std::string_view before = without_spaces(text.substr(0, begin)),
                          after = without_spaces(text.substr(end));
   const auto value = parse_number(head);
-  if (value && (before.empty() || after.empty())) {
-    if (const auto factor = factor_to_unit(before.empty() ? after : before, unit)) {
-      const std::string is =
-          *factor == 1 ? std::string(head) : fmt::format("{:.10g}", *factor * *value);
-      return "write " + is + " alone" + (unit.empty() ? "" : ", it is in " + unit);
-    }
-    const bool is_word = !after.empty() && after.find_first_of("0123456789_") == after.npos;
-    if (unit.empty() && before.empty() && is_word) return "write " + std::string(head) + " alone";
+  if (value && before.empty() != after.empty()) {
+    const auto factor = factor_for_key(before.empty() ? after : before, key, unit);
+    const bool has_two_signs = factor == -1 && (head.starts_with('-') || head.starts_with('+'));
+    if (factor && !has_two_signs)
+      return "write " +
+             (*factor == 1 ? std::string(head) : fmt::format("{:.10g}", *factor * *value)) +
+             " alone" + is_in;
+    if (unit.empty() && is_plain_unit(after)) return "write " + std::string(head) + " alone";
   }
   if (unit == "degrees") return "write decimal degrees alone; south and west are below 0";
-  return unit.empty() ? "" : "write a number alone, it is in " + unit;
+  return unit.empty() ? "" : "write a number alone" + is_in;
 }
 
 std::string number_hint(const YamlNode& node, const std::string& key) {
@@ -70,7 +85,7 @@ std::string number_hint(const YamlNode& node, const std::string& key) {
     with_point[comma] = '.';
     if (parse_number(with_point)) return "write " + with_point;
   }
-  return hint_of_unit(node.text, unit_of_key(key));
+  return hint_of_unit(node.text, key);
 }
 
 std::string range_text(const Range& range, const std::string& key) {

@@ -6,6 +6,7 @@
 
 #include "geo/base/check.h"
 #include "geo/base/keys.h"
+#include "geo/mesh/lying.h"
 #include "solver/base/rng.h"
 #include "solver/surface/clear_glass.h"
 #include "solver/surface/fresnel.h"
@@ -88,19 +89,36 @@ void expect_valid(const Scene& scene) {
     SUNLOAD_EXPECT(id.exists() && id.index() < scene.materials.size(), "material of a triangle");
 }
 
+namespace {
+
+/// Triangles that let light pass and have no patches, but lie on what has: the underside of a crown
+/// on a roof.
+std::vector<std::uint8_t> undersides(const Scene& scene) {
+  const Mesh& mesh = scene.mesh;
+  std::vector<std::uint8_t> are_bare(mesh.triangle_count(), 0), bear_patches(are_bare);
+  for (std::size_t t = 0; t < are_bare.size(); ++t) {
+    bear_patches[t] = mesh.bears_patches(t) ? 1 : 0;
+    are_bare[t] = bear_patches[t] == 0 && scene.material_of(t).transmittance > 0 ? 1 : 0;
+  }
+  if (std::find(are_bare.begin(), are_bare.end(), 1) == are_bare.end()) return are_bare;
+  return lying_on(mesh, are_bare, bear_patches);
+}
+
+}  // namespace
+
 Screens screens(const Scene& scene) {
   Screens screens;
   if (std::none_of(scene.materials.begin(), scene.materials.end(),
                    [](const Material& m) { return m.transmittance > 0; }))
     return screens;
   const Mesh& mesh = scene.mesh;
+  const std::vector<std::uint8_t> is_underside = undersides(scene);
   std::vector<std::uint64_t> number_in_object(mesh.object_names.size(), 0);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const auto object = mesh.triangle_object[t].index();
-    // The underside of a crown that lies against a roof is no patch: light that it stopped would be
-    // lost, and no ray could tell it from the roof.
-    const double T = scene.material_of(t).transmittance;
-    screens.transmittance.push_back(T > 0 && !mesh.bears_patches(t) ? 1 : static_cast<float>(T));
+    // Light that an underside stopped would be lost, and no ray could tell it from what it lies on.
+    screens.transmittance.push_back(
+        is_underside[t] != 0 ? 1 : static_cast<float>(scene.material_of(t).transmittance));
     screens.key.push_back(mixed(text_key(mesh.object_names[object]), number_in_object[object]++));
   }
   return screens;

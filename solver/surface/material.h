@@ -124,8 +124,8 @@ struct Screens {
   std::vector<float> transmittance;  ///< per triangle; empty where all are opaque
   std::vector<std::uint64_t> key;    ///< stable address: object and number within it
 };
-/// Those of a scene, as RayCaster takes them. What light goes through and has no patches (it lies
-/// against another surface) stops none.
+/// Those of a scene, as RayCaster takes them. What light goes through, has no patches and lies on
+/// another surface stops none.
 Screens screens(const Scene& scene);
 
 }  // namespace sunload

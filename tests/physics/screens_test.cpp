@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -153,6 +154,28 @@ TEST(Screens, UndersideOfACrownOnARoofTakesNoLight) {
     }
     closed_ledger(touches);
   }
+}
+
+// One that hovers is crossed as any other surface: an awning of a model of a city, whose lowest
+// faces count as floors.
+TEST(Screens, UndersideOverNothingIsCrossed) {
+  Scene scene = crown_on_a_roof(Underside::floor);
+  for (Material& m : scene.materials) m.diffuse = 0;
+  for (Vec3& v : scene.mesh.vertices)
+    if (std::abs(v.x) < 5) v.z += 1;
+  const auto light = one_second({0, 0, 1}, 800);
+  auto rules = test_rules();
+  rules.direct_samples = 16 * 64;
+  const Solved hovers = solve(scene, {light}, rules, {.max_edge_m = 1});
+  const auto under = hovers.means([&](std::size_t i) {
+    const auto& corners = hovers.corners[i];
+    return hovers.patches[i].triangle < 2 &&
+           std::all_of(corners.begin(), corners.end(),
+                       [](Vec3 p) { return std::abs(p.x) <= 2 && std::abs(p.y) <= 2; });
+  });
+  const double twice = 800 * 0.173 * 0.173;
+  EXPECT_TRUE(expect_mean(under, twice)) << mean_error(under).mean;
+  EXPECT_FALSE(expect_mean(under, 800 * 0.173));
 }
 
 TEST(Screens, LedgerOfAShadedCourtCloses) {

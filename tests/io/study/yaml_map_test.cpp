@@ -138,6 +138,14 @@ TEST(Yaml, UnitsBesideNumbersAreTold) {
   EXPECT_EQ(hint("elevation_m", "1706 ft"), "write 519.9888" + metres);
   EXPECT_EQ(hint("elevation_m", "1706 furlongs"), "write a number" + metres);
   EXPECT_EQ(hint("step_min", "1h"), "write 60 alone, it is in minutes");
+  EXPECT_EQ(hint("latitude_deg", "-33.4S"),
+            "write decimal degrees alone; south and west are below 0");
+  EXPECT_EQ(hint("latitude_deg", "50E"), "write decimal degrees alone; south and west are below 0");
+  EXPECT_EQ(hint("area_percent", "50%"), "write 50 alone, it is in percent");
+  EXPECT_EQ(hint("above_lx", "2klx"), "write 2000 alone, it is in lux");
+  EXPECT_EQ(hint("zenith_luminance_cd_m2", "5 kcd/m2"), "write 5000 alone, it is in cd/m²");
+  EXPECT_EQ(hint("absorption_per_m", "0.04/mm"), "write 40 alone, it is in 1/m");
+  EXPECT_EQ(hint("lines_per_patch", "1k"), "");
 }
 
 TEST(Yaml, ReadsNumbersStrictly) {
