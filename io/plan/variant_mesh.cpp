@@ -142,8 +142,8 @@ VariantMesh mesh_of_family(const VariantPlan& plan, Watch& watch) {
     RayCaster caster;
   };
   std::list<Scene> scenes;
-  std::list<Cast> casts;  // of scenes that let the same light pass
-  std::vector<PilotView> views;
+  std::list<Cast> casts;       // of scenes that let the same light pass
+  std::list<PilotView> alike;  // those that see alike one after the other
   for (const MeshPilotInput& pilot : plan.family->pilots) {
     Scene& scene = scenes.emplace_back();
     scene.mesh = plan.built.scene.mesh;
@@ -158,8 +158,12 @@ VariantMesh mesh_of_family(const VariantPlan& plan, Watch& watch) {
       casts.emplace_back(scene.mesh, plan.isa, passed);
       cast = std::prev(casts.end());
     }
-    views.push_back({scene, cast->caster, *pilot.light});
+    const auto after = std::find_if(alike.rbegin(), alike.rend(), [&](const PilotView& view) {
+      return &view.caster == &cast->caster && &view.light == pilot.light.get();
+    });
+    alike.insert(after.base(), {scene, cast->caster, *pilot.light});
   }
+  const std::vector<PilotView> views(alike.begin(), alike.end());
   VariantMesh made;
   made.mesh = std::make_shared<const Hierarchy>(
       refined_mesh(views, split, refine_rules(plan.study), watch, &made.report));

@@ -91,17 +91,17 @@ void expect_valid(const Scene& scene) {
 
 namespace {
 
-/// Triangles that let light pass and have no patches, but lie on what has: the underside of a crown
-/// on a roof.
+/// Triangles that let light pass and have no patches, but lie on opaque ones that have: the
+/// underside of a crown on a roof. Of crowns on crowns each is crossed.
 std::vector<std::uint8_t> undersides(const Scene& scene) {
   const Mesh& mesh = scene.mesh;
-  std::vector<std::uint8_t> are_bare(mesh.triangle_count(), 0), bear_patches(are_bare);
+  std::vector<std::uint8_t> are_bare(mesh.triangle_count(), 0), are_opaque(are_bare);
   for (std::size_t t = 0; t < are_bare.size(); ++t) {
-    bear_patches[t] = mesh.bears_patches(t) ? 1 : 0;
-    are_bare[t] = bear_patches[t] == 0 && scene.material_of(t).transmittance > 0 ? 1 : 0;
+    const bool is_screen = scene.material_of(t).transmittance > 0;
+    (is_screen ? are_bare : are_opaque)[t] = is_screen != mesh.bears_patches(t) ? 1 : 0;
   }
   if (std::find(are_bare.begin(), are_bare.end(), 1) == are_bare.end()) return are_bare;
-  return lying_on(mesh, are_bare, bear_patches);
+  return lying_on(mesh, are_bare, are_opaque);
 }
 
 }  // namespace

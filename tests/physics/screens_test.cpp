@@ -178,6 +178,30 @@ TEST(Screens, UndersideOverNothingIsCrossed) {
   EXPECT_FALSE(expect_mean(under, 800 * 0.173));
 }
 
+// Of a crown that stands on another one both are crossed: its top, its underside, and what that
+// lies on.
+TEST(Screens, CrownsOnCrownsAreCrossedOneByOne) {
+  SceneBuilder builder;
+  constexpr double half = 20, T = 0.5;
+  const int black = builder.material({"black"}), leaves = builder.material(crown(T));
+  builder.object("receiver").quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, black);
+  builder.sides(Sides::two);
+  for (const double z : {8.0, 5.0})
+    builder.object("top_" + std::to_string(z))
+        .quad({-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}, leaves);
+  builder.object("under").quad({-half, half, 5}, {half, half, 5}, {half, -half, 5},
+                               {-half, -half, 5}, leaves);
+  Scene scene = builder.scene();
+  for (std::size_t t = scene.mesh.triangle_count() - 2; t < scene.mesh.triangle_count(); ++t)
+    scene.mesh.triangle_surface[t] = Surface::floor;
+  auto rules = test_rules();
+  rules.direct_samples = 16 * 1024;
+  const Solved solved = solve(scene, {one_second({0, 0, 1}, 800)}, rules, {.max_edge_m = 1e9});
+  const auto means = solved.means([&](std::size_t i) { return of_receiver(solved, i); });
+  EXPECT_TRUE(expect_mean(means, 800 * std::pow(T, 3))) << mean_error(means).mean;
+  EXPECT_FALSE(expect_mean(means, 800 * std::pow(T, 2)));
+}
+
 TEST(Screens, LedgerOfAShadedCourtCloses) {
   auto rules = test_rules();
   rules.bounces = 20;
