@@ -102,8 +102,12 @@ WorkDone repeated(const Run& run) {
   return fastest(runs);
 }
 
-double ratio(double measured_s, double modelled_s) {
-  constexpr double least = 0.05, most = 50;  // beyond, something else was measured
+constexpr double most_ratio = 50;  // beyond, something else was measured
+/// The model knows nothing of light that goes from mirror to mirror.
+constexpr double most_ratio_of_mirrors = 1e5;
+
+double ratio(double measured_s, double modelled_s, double most = most_ratio) {
+  constexpr double least = 0.05;
   return modelled_s > 0 && measured_s > 0 ? std::clamp(measured_s / modelled_s, least, most) : 1;
 }
 
@@ -151,7 +155,7 @@ std::optional<WorkPace> measured_pace(const VariantPlan& plan,
   pace.is_measured = true;
   pace.lines = ratio(traced->work[Work::lines_s], modelled.lines);
   pace.direct = ratio(done[Work::direct_s], modelled.direct);
-  pace.mirror = ratio(done[Work::mirror_s], modelled.mirror);
+  pace.mirror = ratio(done[Work::mirror_s], modelled.mirror, most_ratio_of_mirrors);
   pace.direct_samples = rules.direct_samples;
   if (done[Work::mirror_s] > 0)
     pace.rays_of_mirrors = std::min(1.0, done[Work::mirror_rays] * cost::s_per_mirror_ray /
