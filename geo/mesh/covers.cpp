@@ -164,7 +164,7 @@ bool Covers::is_buried(std::size_t t, Vec3 at) const {
     if (!is_below_land && may_bury(t, u)) {
       const auto z = height_at(mesh_, u, p.x, p.y);
       // Land that lies on land in millimetres is found as what is behind it; land that lies so near
-      // to what looks up is found as what hides it (hides), from there on as what is above.
+      // to what looks up is found as what hides it (is_behind), from there on as what is above.
       const double above =
           is_land_[t] ? p.z - contact_ : std::min(p.z + contact_, std::max(p.z, at.z + contact_));
       is_below_land = z && *z > above && !(is_road_[u] && *z > p.z + road_bed_m);

@@ -146,7 +146,6 @@ void divide(FaceParts& parts, const CutEdges& cut, double grid_m) {
 /// Of those that may be cut the triangles that some plane cuts, and all that have an edge of these.
 std::vector<std::size_t> involved(const Mesh& mesh, std::span<const std::size_t> faces,
                                   std::span<const PlaneOfFace> planes, double touching_m) {
-  std::vector<std::uint8_t> is_in(mesh.triangle_count(), 0);
   std::set<Edge> edges;
   for (const std::size_t t : faces)
     if (std::any_of(planes.begin(), planes.end(), [&](const PlaneOfFace& plane_of) {

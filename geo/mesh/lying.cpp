@@ -15,9 +15,7 @@ namespace {
 
 constexpr double cos_of_one_plane = 0.99;  // 8 degrees
 
-Vec3 middle_of(const Mesh& mesh, std::size_t t) {
-  return (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3;
-}
+Vec3 middle_of(const Mesh& mesh, std::size_t t) { return mesh.point(t, 1.0 / 3, 1.0 / 3); }
 
 /// Whether `p` is within the prism over a triangle of unit normal `n`, sides included.
 bool is_over(const Mesh& mesh, std::size_t t, Vec3 n, Vec3 p) {

@@ -236,10 +236,10 @@ std::pair<double, double> refinement_seconds(const VariantPlan& plan, std::size_
   constexpr double least = 0.25, most = 4;
   const auto triangles = static_cast<double>(plan.built.scene.mesh.triangle_count());
   // Pilots of one light see alike: what mirrors and lamps add to that is little.
-  std::set<const PeriodLight*> lights{nullptr};
+  std::set<const PeriodLight*> lights;
   if (plan.family)
     for (const MeshPilotInput& pilot : plan.family->pilots) lights.insert(pilot.light.get());
-  const double seconds = static_cast<double>(std::max<std::size_t>(lights.size() - 1, 1)) *
+  const double seconds = static_cast<double>(std::max<std::size_t>(lights.size(), 1)) *
                          refinement_rays(plan, static_cast<double>(patches),
                                          static_cast<double>(plan.light.lit_count())) *
                          s_per_line_ray(std::max(triangles, 1.0)) / thread_count();

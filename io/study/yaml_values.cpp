@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "io/base/file_text.h"
 #include "io/base/key_names.h"
 #include "io/study/yaml_map.h"
 
@@ -27,12 +28,6 @@ std::optional<double> parse_number(std::string_view text) {
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end.ec != std::errc() || end.ptr != text.data() + text.size()) return {};
   return value;
-}
-
-std::string_view without_spaces(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return text;
 }
 
 /// What a number beside this word is multiplied by for a key: points of the compass are signs of
@@ -59,8 +54,7 @@ std::string hint_of_unit(std::string_view text, const std::string& key) {
   // "70E" has no exponent.
   if (unit == "degrees" && end > begin + 1 && text[end - 1] == 'E') --end;
   const std::string_view head = text.substr(begin, end - begin);
-  const std::string_view before = without_spaces(text.substr(0, begin)),
-                         after = without_spaces(text.substr(end));
+  const std::string_view before = trimmed(text.substr(0, begin)), after = trimmed(text.substr(end));
   const auto value = parse_number(head);
   if (value && before.empty() != after.empty()) {
     const auto factor = factor_for_key(before.empty() ? after : before, key, unit);

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "geo/base/keys.h"
 #include "solver/base/rng.h"
 #include "solver/base/sampling.h"
 
