@@ -19,10 +19,11 @@ namespace {
 constexpr int minutes_per_hour = 60;
 
 bool is_date(int year, int month, int day) {
-  return std::chrono::year_month_day{std::chrono::year{year},
-                                     std::chrono::month{static_cast<unsigned>(month)},
-                                     std::chrono::day{static_cast<unsigned>(day)}}
-      .ok();
+  // No calendar has a year 0, and its first hours would be of a year before.
+  return year > 0 && std::chrono::year_month_day{std::chrono::year{year},
+                                                 std::chrono::month{static_cast<unsigned>(month)},
+                                                 std::chrono::day{static_cast<unsigned>(day)}}
+                         .ok();
 }
 
 // Seconds since midnight; 24:00 is the end of the day.

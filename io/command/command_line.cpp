@@ -177,6 +177,16 @@ Option Option::positive() const {
   return *this;
 }
 
+Option Option::not_empty() const {
+  parts_->option->check(CLI::Validator(
+      [](const std::string& text) {
+        return text.empty() ? std::string("is empty; write a path, or leave the option out")
+                            : std::string();
+      },
+      ""));
+  return *this;
+}
+
 Option Option::within(int least, int most) const {
   parts_->option->check(CLI::Range(least, most).description(fmt::format("{} to {}", least, most)));
   return *this;

@@ -26,6 +26,8 @@ class Option {
   /// A second value is told to be one too many, not to be unknown.
   Option single() const;
   Option positive() const;
+  /// A text that is not empty, as that of a variable which a script has never set.
+  Option not_empty() const;
   Option within(int least, int most) const;
   Option within(double least, double most) const;
   /// The two are not given together.

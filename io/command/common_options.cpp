@@ -10,7 +10,8 @@ void add_study(const Command& command, std::string& study) {
 
 void add_place(const Command& command, RunOptions& options) {
   command.option("--variant", options.variants, "only these variants (repeatable)").repeatable();
-  command.option("--output", options.output, "folder for results, replaces output.folder");
+  command.option("--output", options.output, "folder for results, replaces output.folder")
+      .not_empty();
   command
       .option("--threads", options.threads,
               "threads (default: the processors this process may use)")

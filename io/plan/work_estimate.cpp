@@ -135,8 +135,8 @@ double circumsolar_receivers(const VariantPlan& plan, std::size_t patches) {
   return plan.study.solver.transport == Transport::shoot ? 0 : static_cast<double>(patches);
 }
 
-/// Patches and sensors to which rays tell of the sun: where edges of shadows cross what sends light
-/// on by rays, or the sun has a disk, and behind screens.
+/// Patches to which rays tell of the sun: where edges of shadows cross what sends light on by rays,
+/// or the sun has a disk, and behind screens.
 double asked_by_rays(const VariantPlan& plan, std::size_t patches) {
   const bool by_grid = plan.light.any_joined();
   const double share = mean_over_seasons(plan, [&](const MaterialsOfScene& of_season) {
@@ -148,8 +148,30 @@ double asked_by_rays(const VariantPlan& plan, std::size_t patches) {
     if (plan.study.sun.disk == SunDisk::finite) left = std::max(left, share_at_edges);
     return sending * std::max(left, share_at_edges) + (1 - sending) * left;
   });
-  return share * static_cast<double>(patches) +
-         static_cast<double>(plan.built.scene.sensors.size());
+  return share * static_cast<double>(patches);
+}
+
+bool any_sends_on(const VariantPlan& plan) {
+  const auto materials = materials_of(plan);
+  return std::any_of(materials.begin(), materials.end(), sends_on);
+}
+
+/// Sensors, each as often as the suns of the half space above the horizon that it faces.
+double sensors_that_face(const VariantPlan& plan) {
+  double faced = 0;
+  for (const Sensor& sensor : plan.built.scene.sensors) faced += (1 + sensor.normal.z) / 2;
+  return faced;
+}
+
+/// Lines and rays of all sensors, and so many suns gathered from what the patches sent last. Of one
+/// core.
+double sensor_seconds(const VariantPlan& plan, double lines_per_sensor, double suns, double rays,
+                      double samples) {
+  const auto count = static_cast<double>(plan.built.scene.sensors.size());
+  const double lines = count * lines_per_sensor;
+  return tracing_seconds(plan, count, lines, false) + rays * s_per_direct_ray +
+         solution_seconds(count, lines, suns) +
+         (any_sends_on(plan) ? mirror_seconds(plan, count, suns, samples) : 0);
 }
 
 /// Solutions that serve all intervals of a period, where few do.
@@ -197,7 +219,7 @@ bool is_year_of_few(const VariantPlan& plan) {
 
 WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
                              const BlockCounts& counts) {
-  const double n = receivers(plan, patches), lines = n * counts.lines_per_patch;
+  const double n = static_cast<double>(patches), lines = n * counts.lines_per_patch;
   const double threads = thread_count();
   const auto materials = materials_of(plan);
   const bool guided = std::any_of(materials.begin(), materials.end(), emits);  // by who gathers
@@ -212,6 +234,10 @@ WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
       mirror_seconds(plan, n, counts.suns, counts.direct_samples) / threads,
       // A block that is not full takes as long.
       band_factor(plan) * solution_seconds(n, lines * plan.study.solver.bounces, block_width) /
+          threads,
+      sensor_seconds(plan, counts.lines_per_patch, counts.suns,
+                     sensors_that_face(plan) * counts.suns * counts.direct_samples,
+                     counts.direct_samples) /
           threads};
 }
 
@@ -261,7 +287,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const auto has = [&](auto property) {
     return std::any_of(materials.begin(), materials.end(), property);
   };
-  const bool mirrors = has([](const Material& m) { return sends_on(m); });
+  const bool mirrors = any_sends_on(plan);
   const bool lamps = has_lamps(plan);
   const bool guided =
       s.transport == Transport::gather && has([](const Material& m) { return emits(m); });
@@ -280,7 +306,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   const auto batches = static_cast<double>(plan.batches());
   const bool by_matrix = s.transport == Transport::matrix;
-  const double lines = n * counts.mean_lines(), links = by_matrix ? n * n : lines * s.bounces;
+  const double of_patches = static_cast<double>(patches) * counts.mean_lines();
+  const double lines = n * counts.mean_lines(), links = by_matrix ? n * n : of_patches * s.bounces;
   const double of_realizations = double_bytes * s.realizations;
   const bool of_instants = plan.study.output.standard_error == StandardErrors::instants;
   const bool is_rgb = s.bands == Bands::rgb;
@@ -305,16 +332,18 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   WorkEstimate work;
   work.patches = patches;
   work.line_rays = static_cast<std::uint64_t>(seasons * lines);
-  const double rays_to_sun =
-      facing_share * asked_by_rays(plan, patches) *
-      (shining * counts.direct_samples +
-       (suns - shining) * static_cast<double>(net_size(counts.direct_samples, s.realizations)));
+  const double rays_of_suns =
+      shining * counts.direct_samples +
+      (suns - shining) * static_cast<double>(net_size(counts.direct_samples, s.realizations));
+  const double rays_to_sun = facing_share * asked_by_rays(plan, patches) * rays_of_suns;
+  const double rays_of_sensors = sensors_that_face(plan) * rays_of_suns;
   const double circumsolar_rays = facing_share * circumsolar_receivers(plan, patches) *
                                   std::min(near_suns, shining) * (of_few ? bands : 1) *
                                   counts.direct_samples;
   const double luminaire_rays = seasons * n * luminaires_seen * counts.direct_samples *
                                 static_cast<double>(plan.built.scene.luminaires.all.size());
-  work.direct_rays = static_cast<std::uint64_t>(rays_to_sun + circumsolar_rays + luminaire_rays);
+  work.direct_rays =
+      static_cast<std::uint64_t>(rays_to_sun + rays_of_sensors + circumsolar_rays + luminaire_rays);
   work.memory_bytes =
       program_bytes + seasons * lines * bytes_per_line +
       static_cast<double>(plan.light.parts()) * bytes_per_interval +
@@ -382,7 +411,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       prepared_bytes(plan, static_cast<double>(patches), counts.mean_lines(), guided, node_bytes);
   WorkSeconds core;  // of one core
   core.lines =
-      seasons * tracing_seconds(plan, n, lines, guided) +
+      seasons * tracing_seconds(plan, static_cast<double>(patches), of_patches, guided) +
       static_cast<double>(work.samples) * s_per_sample +  // a shot meets surfaces as a line does
       (plan.study.mesh.oracle == Oracle::none ? 0
                                               : refinement_rays(plan, n, lit) * s_per_direct_ray);
@@ -391,7 +420,11 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
                 luminaire_rays * s_per_luminaire_ray;
   const double sent_on =
       shining / std::max(suns, 1.0) * static_cast<double>(plan.light.suns_of_mirrors());
-  core.mirror = mirrors ? mirror_seconds(plan, n, sent_on, counts.direct_samples) : 0;
+  core.mirror =
+      mirrors ? mirror_seconds(plan, static_cast<double>(patches), sent_on, counts.direct_samples)
+              : 0;
+  core.sensors =
+      sensor_seconds(plan, counts.mean_lines(), lit, rays_of_sensors, counts.direct_samples);
   if (by_matrix)
     core.solve += seasons * n * n * (s_per_form_factor + n * s.realizations * s_per_factor_solved);
   if (s.transport != Transport::shoot)
@@ -422,10 +455,10 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       (of_few ? circumsolar_rays * s_per_circumsolar_ray : 0) +
       std::max(0.0, static_cast<double>(plan.light.lit_parts()) - lit) * s_per_sky_of_part;
   // Series are put together by one thread.
-  work.seconds =
-      files + (s_to_start + untried + further_series + core.lines * pace.lines +
-               core.direct * pace.direct + core.mirror * mirror_pace + core.solve * pace.solve) /
-                  thread_count();
+  work.seconds = files + (s_to_start + untried + further_series + core.lines * pace.lines +
+                          core.direct * pace.direct + core.mirror * mirror_pace +
+                          core.solve * pace.solve + core.sensors * pace.sensors) /
+                             thread_count();
   return work;
 }
 

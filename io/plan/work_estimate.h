@@ -14,7 +14,7 @@ namespace sunload {
 /// Time that a machine takes, as a multiple of what the cost model says (solver/base/cost.h), by
 /// kind of work.
 struct WorkPace {
-  double lines = 1, direct = 1, mirror = 1, solve = 1;
+  double lines = 1, direct = 1, mirror = 1, solve = 1, sensors = 1;
   /// Of the time for mirrors the share that goes to rays, of which each sample of a sun has some:
   /// light that goes from mirror to mirror; and the samples with which that was measured.
   double rays_of_mirrors = 0;
@@ -49,9 +49,9 @@ struct BlockCounts {
   int lines_per_patch = 0, direct_samples = 0;
   double suns = 0;  ///< that shine, all those that stand for one interval counted
 };
-/// Seconds by those stages that `WorkDone` has times of.
+/// Seconds by those stages that `WorkDone` has times of: of patches, and all that sensors take.
 struct WorkSeconds {
-  double lines = 0, direct = 0, mirror = 0, solve = 0;
+  double lines = 0, direct = 0, mirror = 0, solve = 0, sensors = 0;
 };
 /// What the cost model says of one block of the plan, on the threads that are used.
 WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,

@@ -161,6 +161,7 @@ std::optional<WorkPace> measured_pace(const VariantPlan& plan,
     pace.rays_of_mirrors = std::min(1.0, done[Work::mirror_rays] * cost::s_per_mirror_ray /
                                              (thread_count() * done[Work::mirror_s]));
   pace.solve = ratio(done[Work::solve_s], modelled.solve);
+  pace.sensors = ratio(traced->work[Work::sensors_s] + done[Work::sensors_s], modelled.sensors);
   return pace;
 }
 

@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "geo/base/check.h"
+#include "geo/base/coordinates.h"
+#include "geo/base/units.h"
 #include "geo/mesh/mesh.h"
 #include "geo/time/time.h"
 #include "io/result/schema.h"
@@ -28,9 +30,11 @@ constexpr std::size_t coordinates = 3;
 // Unit vectors as doubles are unit to 1e-15; as floats, which another program may have made of
 // them, to 1e-7.
 constexpr double unit_tolerance = 1e-6;
-// Beyond any planet: float, in which rays and pictures are computed, squares it without overflow.
-constexpr double largest_coordinate_m = 1e9;
-constexpr UnixTime first_time = -62135596800, last_time = 253402300799;  // years 1 … 9999
+// What is placed at the largest coordinate reaches beyond it.
+constexpr double farthest_m = 2 * largest_coordinate_m;
+// Years 1 … 9999, by the clock of any zone.
+constexpr UnixTime first_time = -62135596800 - seconds_per_day,
+                   last_time = 253402300799 + seconds_per_day;
 
 /// Where indices point to: entries of a dimension, or one of so many flags.
 struct Pointer {
@@ -58,7 +62,7 @@ struct Range {
   const char* words;
 };
 constexpr Range positions_in(const char* dataset) {
-  return {dataset, -largest_coordinate_m, largest_coordinate_m, "no position"};
+  return {dataset, -farthest_m, farthest_m, "no position"};
 }
 // Energy that the sun does not have: a series that float holds.
 constexpr double largest_irradiance = 1e30;
@@ -66,9 +70,9 @@ constexpr std::array ranges{
     positions_in("vertex_position"),
     positions_in("patch_centroid"),
     positions_in("sensor_position"),
-    Range{"patch_area", 1e-300, largest_coordinate_m* largest_coordinate_m, "no area"},
-    Range{"facade_area", 0, largest_coordinate_m* largest_coordinate_m, "no area"},
-    Range{"selection_area", 0, largest_coordinate_m* largest_coordinate_m, "no area"},
+    Range{"patch_area", 1e-300, farthest_m* farthest_m, "no area"},
+    Range{"facade_area", 0, farthest_m* farthest_m, "no area"},
+    Range{"selection_area", 0, farthest_m* farthest_m, "no area"},
     Range{"facade_azimuth", -360, 360, "no azimuth"},
     Range{"time", first_time, last_time, "no time of the years 1 … 9999"},
     Range{"time_bounds", first_time, last_time, "no time of the years 1 … 9999"},
@@ -173,9 +177,8 @@ class Examination {
   void attributes() {
     if (const auto origin = file_.numbers("origin")) {
       const bool is_point = origin->size() == coordinates &&
-                            std::all_of(origin->begin(), origin->end(), [](double c) {
-                              return std::abs(c) <= largest_coordinate_m;
-                            });
+                            std::all_of(origin->begin(), origin->end(),
+                                        [](double c) { return std::abs(c) <= farthest_m; });
       if (!is_point) add("the attribute origin is no position", "three numbers in metres");
     }
     try {
@@ -186,7 +189,7 @@ class Examination {
     for (const auto& [name, largest] : {std::pair{"latitude_deg", 90.0},
                                         {"longitude_deg", 360.0},
                                         {"north_deg", 360.0},
-                                        {"elevation_m", largest_coordinate_m}})
+                                        {"elevation_m", farthest_m}})
       if (const auto values = file_.numbers(name);
           values && !(values->size() == 1 && std::abs(values->front()) <= largest))
         add(fmt::format("the attribute {} is {}", name, fmt::join(*values, ", ")),

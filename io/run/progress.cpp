@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "geo/base/units.h"
 #include "io/base/machine.h"
@@ -60,8 +61,9 @@ std::size_t terminal_columns() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
 }
 
+using Json = nlohmann::ordered_json;
+
 std::string message_json(const std::string& text) {
-  using Json = nlohmann::ordered_json;
   return Json{{"message", text}}.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -72,7 +74,8 @@ struct Progress::State {
   std::string variant, stage;
   double share = 0;  ///< of the stage
   std::size_t suns_done = 0, suns = 0;
-  double rays_per_s = 0, elapsed_s = 0, left_s = 0, memory_bytes = 0;
+  double rays_per_s = 0, elapsed_s = 0, memory_bytes = 0;
+  std::optional<double> left_s;  ///< once something has been done
 
   std::string words() const {
     // `check` refines meshes and lights nothing; pilots do not count their rays.
@@ -81,23 +84,23 @@ struct Progress::State {
     constexpr double worth_telling = 0.05 * million;
     const std::string speed =
         rays_per_s >= worth_telling ? fmt::format("{:.1f} Mrays/s, ", rays_per_s / million) : "";
-    return fmt::format("{}{}{} left, {:.0f} MiB", done, speed, clock_text(left_s),
-                       memory_bytes / mib);
+    const std::string left = left_s ? clock_text(*left_s) + " left, " : "";
+    return fmt::format("{}{}{}{:.0f} MiB", done, speed, left, memory_bytes / mib);
   }
   std::string line() const {
     return fmt::format("{}: {} {:.1f} %, {}, {} elapsed", variant, stage, 100 * share, words(),
                        clock_text(elapsed_s));
   }
   std::string json() const {
-    return nlohmann::ordered_json({{"variant", variant},
-                                   {"stage", stage},
-                                   {"share", share},
-                                   {"suns_done", suns_done},
-                                   {"suns", suns},
-                                   {"rays_per_s", rays_per_s},
-                                   {"elapsed_s", elapsed_s},
-                                   {"left_s", left_s},
-                                   {"memory_bytes", memory_bytes}})
+    return Json({{"variant", variant},
+                 {"stage", stage},
+                 {"share", share},
+                 {"suns_done", suns_done},
+                 {"suns", suns},
+                 {"rays_per_s", rays_per_s},
+                 {"elapsed_s", elapsed_s},
+                 {"left_s", left_s ? Json(*left_s) : Json()},
+                 {"memory_bytes", memory_bytes}})
         .dump();
   }
   /// As wide as the terminal allows: what is longer would begin a new line with every drawing.
@@ -181,6 +184,7 @@ Progress::State Progress::state(Stage stage, double share) const {
   } else if (share > 0) {
     now.left_s = now.elapsed_s * (1 - share) / share;
   }
+  if (now.share >= 1) now.left_s = 0;
   return now;
 }
 

@@ -102,13 +102,7 @@ void read_weather(YamlMap& map, const std::string& folder, LightStudy& light) {
     map.problem("source", "weather needs a file", "", "write light.weather: x.epw beside `source`");
     return;
   }
-  const auto path = (std::filesystem::path(folder) / *file).lexically_normal();
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    map.problem("weather", "'" + *file + "' is not there", "it is sought at " + path.string(),
-                "paths are relative to the study file");
-  }
-  light.weather = path.string();
+  light.weather = read_path(map, "weather", folder);
 }
 
 }  // namespace

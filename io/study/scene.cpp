@@ -38,14 +38,7 @@ constexpr Range link_thresholds{0, 1e3};
 constexpr double share_rounding = 1e-12;  // of the sum of two decimal numbers
 
 void read_parallel_sources(YamlMap& map, const std::string& folder, SceneStudy& scene) {
-  const auto file = map.text("parallel_sources");
-  if (!file) return;
-  const fs::path path = (fs::path(folder) / *file).lexically_normal();
-  std::error_code error;
-  if (!fs::is_regular_file(path, error))
-    map.problem("parallel_sources", "'" + *file + "' is not there",
-                "it is sought at " + path.string(), "paths are relative to the study file");
-  scene.parallel_sources = path.string();
+  scene.parallel_sources = read_path(map, "parallel_sources", folder);
   scene.parallel_sources_where = map.where("parallel_sources");
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/base/coordinates.h"
 #include "io/study/study.h"
 #include "io/study/yaml_map.h"
 
@@ -36,7 +37,7 @@ inline constexpr Range units_m{1e-6, 1e6};
 // What several sections have.
 inline constexpr Range shares{0, 1};
 inline constexpr Range turns_deg{-360, 360};
-inline constexpr Range coordinates_m{-1e10, 1e10};  ///< no map projection of the Earth goes farther
+inline constexpr Range coordinates_m{-largest_coordinate_m, largest_coordinate_m};
 inline constexpr Range heights_m{-1e5, 1e5};
 void check_lod(YamlMap& map, const std::string& lod);
 /// `scene.files`; paths are relative to `folder`.

@@ -245,6 +245,10 @@ SeriesStepStudy read_series_step(YamlMap& map) {
 OutputStudy read_output(YamlMap& map) {
   OutputStudy output;
   output.folder = map.text("folder", output.folder);
+  if (output.folder.starts_with('~'))
+    map.problem("folder", "'" + output.folder + "' begins with ~",
+                "a shell takes that for the home folder, a study for a folder of that name",
+                "write the path in full, or ./" + output.folder);
   output.series = read_series(map, output.series);
   output.standard_error = map.choice("standard_error", output.standard_error);
   output.compression = map.integer("compression", 0, strongest_compression, output.compression);

@@ -228,6 +228,19 @@ void require_utf8(const std::string& file, std::string_view text) {
   }
 }
 
+/// Of text that is no YAML: a line that begins with a tab is mostly why, and the parser names
+/// another place.
+void refuse_tabs(const std::string& file, const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first != std::string::npos && line[first] == '\t')
+      throw InputError({file, number, static_cast<int>(first) + 1}, "a tab begins the line",
+                       "YAML is indented by blanks alone", "write blanks in its place");
+  }
+}
+
 }  // namespace
 
 const char* kind_name(Kind kind) {
@@ -262,6 +275,7 @@ YamlTree parse_yaml(const std::string& file, const std::string& text, Problems& 
                        "has more than one document", "", "remove the line '---' between them");
     }
   } catch (const YAML::Exception& error) {
+    refuse_tabs(file, text);
     throw InputError(place(file, error.mark), "is no valid YAML", error.msg);
   }
   if (!builder.root() || builder.root()->kind == Kind::empty) {

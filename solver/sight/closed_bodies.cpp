@@ -32,7 +32,7 @@ int balance_at(const Occluders& o, std::size_t triangle, std::size_t k) {
 
 }  // namespace
 
-std::vector<Closed> closed_bodies(const Occluders& o) {
+ClosedBodies closed_bodies(const Occluders& o) {
   const std::size_t count = o.triangle_count();
   Together body = bodies_of(o);
   std::vector<double> volume(count, 0);  // times 6
@@ -45,10 +45,13 @@ std::vector<Closed> closed_bodies(const Occluders& o) {
     for (std::size_t k = 0; k < 3; ++k)
       if (o.point(t, k) == o.point(t, (k + 1) % 3) || balance_at(o, t, k) != 0) has_hole[b] = true;
   }
-  std::vector<Closed> bodies(count, Closed::no);
-  for (std::size_t t = 0; t < count; ++t)
-    if (const std::size_t b = body.of(t); !has_hole[b] && volume[b] != 0)
-      bodies[t] = volume[b] > 0 ? Closed::outward : Closed::inward;
+  ClosedBodies bodies{std::vector<Closed>(count, Closed::no), std::vector<std::uint32_t>(count)};
+  for (std::size_t t = 0; t < count; ++t) {
+    const std::size_t b = body.of(t);
+    bodies.body[t] = static_cast<std::uint32_t>(b);
+    if (!has_hole[b] && volume[b] != 0)
+      bodies.turned[t] = volume[b] > 0 ? Closed::outward : Closed::inward;
+  }
   return bodies;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/sight/view_hull.h"
+
 namespace sunload {
 
 namespace {
@@ -111,27 +113,38 @@ GroupShares::Overlap GroupShares::find_shades(const Seen& group) {
   found_.clear();
   for (std::size_t r = cells.row0; r <= cells.row1; ++r)
     for (std::size_t c = cells.column0; c <= cells.column1; ++c)
-      for (const auto face : view.faces_in(c, r)) {
-        const SunView::Bounds& bounds = view.bounds(face);
-        if (bounds.highest.along <= group.lowest.along) break;  // and so are all that follow
-        const double face_rise = view.rise(group.lowest, bounds.highest);
-        if (face_rise <= 0) continue;
-        const double wider_x = suns.drift_x * face_rise, wider_y = suns.drift_y * face_rise;
-        if (bounds.box.is_apart_from(group.box, wider_x, wider_y) || !asked_.add(face)) continue;
-        if (shades_.size() == found_.size()) shades_.emplace_back(), before_.emplace_back();
-        Shade& shade = shades_[found_.size()];
-        shade.wider_x = wider_x;
-        shade.wider_y = wider_y;
-        if (!measure(face, before_[found_.size()])) continue;
-        if (!outline(face, before_[found_.size()], suns.frame, shade)) continue;
-        const Overlap shaded = overlap(group, shade);
-        if (shaded == Overlap::all && hides_all_suns(face)) return Overlap::all;
-        if (shaded != Overlap::none) found_.push_back(face);
-      }
+      if (add_shades(group, view.cores_in(c, r))) return Overlap::all;
+  for (std::size_t r = cells.row0; r <= cells.row1; ++r)
+    for (std::size_t c = cells.column0; c <= cells.column1; ++c)
+      if (add_shades(group, view.faces_in(c, r))) return Overlap::all;
   if (found_.empty()) return Overlap::none;
   is_made_.assign(found_.size() * suns.count, 0);
   if (of_suns_.size() < is_made_.size()) of_suns_.resize(is_made_.size());
   return Overlap::some;
+}
+
+/// Of one cell; true where one of them is found to shade all of the group from all suns.
+bool GroupShares::add_shades(const Seen& group, std::span<const std::uint32_t> highest_first) {
+  const SunView& view = *view_;
+  const SunCluster& suns = view.suns();
+  for (const auto face : highest_first) {
+    const SunView::Bounds& bounds = view.bounds(face);
+    if (bounds.highest.along <= group.lowest.along) break;  // and so are all that follow
+    const double face_rise = view.rise(group.lowest, bounds.highest);
+    if (face_rise <= 0) continue;
+    const double wider_x = suns.drift_x * face_rise, wider_y = suns.drift_y * face_rise;
+    if (bounds.box.is_apart_from(group.box, wider_x, wider_y) || !asked_.add(face)) continue;
+    if (shades_.size() == found_.size()) shades_.emplace_back(), before_.emplace_back();
+    Shade& shade = shades_[found_.size()];
+    shade.wider_x = wider_x;
+    shade.wider_y = wider_y;
+    if (!measure(face, before_[found_.size()])) continue;
+    if (!outline(face, before_[found_.size()], suns.frame, shade)) continue;
+    const Overlap shaded = overlap(group, shade);
+    if (shaded == Overlap::all && hides_all_suns(face)) return true;
+    if (shaded != Overlap::none) found_.push_back(face);
+  }
+  return false;
 }
 
 /// Of a face before all that is looked at: that each sun by itself would find it so.
@@ -159,15 +172,23 @@ bool GroupShares::measure(std::uint32_t face, Before& before) const {
   return any;
 }
 
-/// False where what of the face is before the plane of the group has no area.
+/// False where what of the face or core is before the plane of the group has no area.
 bool GroupShares::outline(std::uint32_t face, const Before& before, const ViewFrame& frame,
-                          Shade& shade) const {
+                          Shade& shade) {
   const SunFaces& faces = shares_.faces();
-  const auto corners = faces.corners(face);
-  const std::size_t n = corners.size();
   shade.is_solid = !faces.is_screen(face);
   shade.polygon.clear();
   shade.box = {};
+  faces.is_core(face) ? outline_of_core(face, before, frame, shade)
+                      : outline_of_face(face, before, frame, shade);
+  return shade.polygon.has_area();
+}
+
+void GroupShares::outline_of_face(std::uint32_t face, const Before& before, const ViewFrame& frame,
+                                  Shade& shade) const {
+  const SunFaces& faces = shares_.faces();
+  const auto corners = faces.corners(face);
+  const std::size_t n = corners.size();
   const auto add = [&](const Vec3& p) {
     const ViewCorner corner{dot(p, frame.x), dot(p, frame.y)};
     shade.polygon.add(corner);
@@ -177,7 +198,7 @@ bool GroupShares::outline(std::uint32_t face, const Before& before, const ViewFr
   const auto in_turn = [&](std::size_t k) { return from_behind ? n - 1 - k : k; };
   if (before.all) {
     for (std::size_t k = 0; k < n; ++k) add(corners[in_turn(k)]);
-    return true;
+    return;
   }
   std::size_t p = in_turn(n - 1);
   for (std::size_t k = 0; k < n; ++k) {
@@ -188,7 +209,27 @@ bool GroupShares::outline(std::uint32_t face, const Before& before, const ViewFr
     if (before_q > 0) add(corners[q]);
     p = q;
   }
-  return shade.polygon.has_area();
+}
+
+/// Of corners before the plane, and of where edges come through it.
+void GroupShares::outline_of_core(std::uint32_t core, const Before& before, const ViewFrame& frame,
+                                  Shade& shade) {
+  const auto corners = shares_.faces().corners(core);
+  points_.clear();
+  const auto add = [&](const Vec3& p) { points_.push_back({dot(p, frame.x), dot(p, frame.y)}); };
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    if (before.by[k] > 0) add(corners[k]);
+  if (!before.all)
+    for (const auto [p, q] : shares_.faces().edges_of_core(core))
+      if (const double before_p = before.by[p], before_q = before.by[q];
+          (before_p > 0) != (before_q > 0))
+        add(corners[p] + (corners[q] - corners[p]) * (before_p / (before_p - before_q)));
+  const auto hull = convex_hull(points_, hull_);
+  if (hull.size() > ViewPolygon::most) return;  // faces tell
+  for (const ViewCorner& corner : hull) {
+    shade.polygon.add(corner);
+    shade.box.include(corner);
+  }
 }
 
 GroupShares::Overlap GroupShares::overlap(const Seen& seen, const Shade& shade) {
@@ -251,7 +292,7 @@ float GroupShares::share_at(std::uint32_t patch, std::size_t k) {
     if (!shade.polygon.has_area()) continue;
     const Overlap shaded = overlap(seen, shade);
     if (shaded == Overlap::all) return 0;
-    if (shaded == Overlap::some) kept_.push_back(&shade);
+    if (shaded == Overlap::some && !shares_.faces().is_core(shade.face)) kept_.push_back(&shade);
   }
   return share(seen);
 }

@@ -60,7 +60,7 @@ class GroupShares {
   };
   /// How far the corners of a face are before the plane of the group [m].
   struct Before {
-    std::array<double, SunFaces::most_corners> by;
+    std::array<double, SunFaces::most_corners_of_all> by;
     bool all;  ///< of them are
   };
   enum class Overlap { none, some, all };
@@ -68,10 +68,14 @@ class GroupShares {
 
   bool see(const Vertices& vertices, const ViewFrame& frame, Seen& seen) const;
   Overlap find_shades(const Seen& group);
+  bool add_shades(const Seen& group, std::span<const std::uint32_t> highest_first);
   bool hides_all_suns(std::uint32_t face) const;
   bool measure(std::uint32_t face, Before& before) const;
-  bool outline(std::uint32_t face, const Before& before, const ViewFrame& frame,
-               Shade& shade) const;
+  bool outline(std::uint32_t face, const Before& before, const ViewFrame& frame, Shade& shade);
+  void outline_of_face(std::uint32_t face, const Before& before, const ViewFrame& frame,
+                       Shade& shade) const;
+  void outline_of_core(std::uint32_t core, const Before& before, const ViewFrame& frame,
+                       Shade& shade);
   static Overlap overlap(const Seen& seen, const Shade& shade);
   static Overlap overlap_by_outline(const Seen& seen, const Shade& shade);
   static bool is_beside(const Seen& seen, const Shade& shade);
@@ -93,8 +97,8 @@ class GroupShares {
   std::vector<std::size_t> facing_;  ///< suns that the group faces
   bool faces_all_ = false;
   NumbersSeen asked_;
-  Numbers found_;               ///< faces that may shade the group, from any of the suns
-  std::vector<Shade> shades_;   ///< these, seen from the middle of the suns; and more room
+  Numbers found_;              ///< cores, then faces that may shade the group, from any of the suns
+  std::vector<Shade> shades_;  ///< these, seen from the middle of the suns; and more room
   std::vector<Before> before_;  ///< of the same
   std::vector<Shade> of_suns_;  ///< as each sun sees them, [found][suns]; and more room
   std::vector<std::uint8_t> is_made_;
@@ -103,6 +107,7 @@ class GroupShares {
   std::vector<const Shade*> kept_;
   std::vector<const ViewPolygon*> cover_;
   LitArea area_;
+  std::vector<ViewCorner> points_, hull_;  ///< of a core
 };
 
 }  // namespace sunload

@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "geo/mesh/box_tree.h"
 #include "solver/base/threads.h"
 #include "solver/sight/view_cut.h"
 
@@ -19,7 +20,17 @@ constexpr double flat_mirrors = 0.25;
 constexpr double least_cosine = 1e-6;
 /// Of a patch's area: less is rounding.
 constexpr double least_seen = 1e-9;
-constexpr std::size_t groups_per_task = 16, fewest_at_once = 16;
+/// Groups that are asked together whether light comes near, such neighbours for a task of a thread,
+/// and mirrored suns for which there is memory at a time.
+constexpr std::size_t groups_together = 8, neighbours_per_task = 2, fewest_at_once = 16;
+
+/// Whether anything about a place may be in a box across the light.
+bool is_near(const ViewBox& box, const ViewFrame& frame, Vec3 centre, double radius_m) {
+  const ViewCorner at{dot(centre, frame.x), dot(centre, frame.y)};
+  ViewBox point;
+  point.include(at);
+  return !box.is_apart_from(point, radius_m, radius_m);
+}
 
 }  // namespace
 
@@ -169,7 +180,22 @@ MirroredShares::MirroredShares(const LitShares& shares, const MirrorGroups& grou
     : shares_(shares),
       groups_(groups),
       planes_(groups, flat_mirrors * shares.offset_m()),
-      tree_(shares.faces()) {}
+      tree_(shares.faces()) {
+  find_neighbours();
+}
+
+void MirroredShares::find_neighbours() {
+  const auto& groups = shares_.groups();
+  const auto& vertices = shares_.hierarchy().vertices();
+  for (std::size_t begin = 0; begin < groups.size(); begin += groups_together) {
+    const std::size_t end = std::min(begin + groups_together, groups.size());
+    Box box;
+    for (std::size_t g = begin; g < end; ++g)
+      for (const auto vertex : groups[g].vertices)
+        include(box, vertices[static_cast<std::size_t>(vertex)]);
+    neighbours_.push_back({begin, end, centre_of(box), norm(half_of(box)) + shares_.offset_m()});
+  }
+}
 
 Columns MirroredShares::of(std::span<const IntervalLight> block,
                            std::span<const std::vector<MirroredSun>> by_mirrors) const {
@@ -190,12 +216,17 @@ Columns MirroredShares::of(std::span<const IntervalLight> block,
       const auto [k, sun] = all[first + i];
       lit[i].emplace(groups_, planes_, tree_, shares_.offset_m(), *sun, block[k].direction);
     });
-    parallel_chunks(shares_.groups().size(), groups_per_task,
+    parallel_chunks(neighbours_.size(), neighbours_per_task,
                     [&](std::size_t begin, std::size_t end) {
                       GroupWork work(*this, light);
                       for (std::size_t i = 0; i < lit.size(); ++i)
-                        for (std::size_t g = begin; g < end; ++g)
-                          work.tell(shares_.groups()[g], *lit[i], all[first + i].k);
+                        for (std::size_t n = begin; n < end; ++n) {
+                          const Neighbours& near = neighbours_[n];
+                          if (!is_near(lit[i]->box(), lit[i]->frame(), near.centre, near.radius_m))
+                            continue;
+                          for (std::size_t g = near.begin; g < near.end; ++g)
+                            work.tell(shares_.groups()[g], *lit[i], all[first + i].k);
+                        }
                     });
   }
   return light;

@@ -38,11 +38,19 @@ class MirroredShares {
 
  private:
   class GroupWork;
+  void find_neighbours();
 
   const LitShares& shares_;
   const MirrorGroups& groups_;
   MirrorPlanes planes_;
   FaceTree tree_;
+  /// All of the groups that follow each other within `radius_m` about `centre`.
+  struct Neighbours {
+    std::size_t begin, end;
+    Vec3 centre;
+    double radius_m;
+  };
+  std::vector<Neighbours> neighbours_;
 };
 
 }  // namespace sunload

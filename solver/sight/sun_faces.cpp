@@ -3,21 +3,35 @@
 #include "solver/sight/sun_faces.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "solver/sight/convex_faces.h"
 
 namespace sunload {
 
+namespace {
+
+/// Cores keep so many times the flatness of faces from them.
+constexpr double core_depths = 16;
+
+}  // namespace
+
 SunFaces::SunFaces(const Scene& scene, double flat_m) {
   const Occluders occluders(scene.mesh, screens(scene).transmittance);
-  const std::vector<Closed> bodies = closed_bodies(occluders);
-  for (const ConvexFace& face : convex_faces(occluders, flat_m, most_corners))
-    add(face.corners, face.normal, false, bodies[face.triangles.front()]);
+  const ClosedBodies bodies = closed_bodies(occluders);
+  const std::vector<ConvexFace> faces = convex_faces(occluders, flat_m, most_corners);
+  for (const ConvexFace& face : faces)
+    add(face.corners, face.normal, false, bodies.turned[face.triangles.front()]);
   for (std::size_t t = 0; t < occluders.triangle_count(); ++t) {
     const Vec3 a = occluders.corner(t, 0), b = occluders.corner(t, 1), c = occluders.corner(t, 2);
     const Vec3 area2 = cross(b - a, c - a);
     if (!occluders.is_screen(t) || norm(area2) <= 0) continue;
     add({a, b, c}, normalized(area2), true, Closed::no);
+  }
+  face_count_ = normal_.size();
+  for (BodyCore& core : body_cores(occluders, bodies, faces, core_depths * flat_m)) {
+    add(core.corners, {0, 0, 0}, false, Closed::no);
+    edges_of_core_.push_back(std::move(core.edges));
   }
 }
 

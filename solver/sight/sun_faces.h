@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// All that may stand before the sun, as convex faces in flat arrays: parts of walls and roofs;
-/// triangles that let light pass are faces by themselves.
+/// triangles that let light pass are faces by themselves. After the faces come cores of closed
+/// bodies (solver/sight/body_cores.h): what is wholly behind one is dark, of all else faces tell.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "solver/sight/closed_bodies.h"
+#include "solver/sight/body_cores.h"
 #include "solver/surface/material.h"
 
 namespace sunload {
@@ -16,19 +19,26 @@ namespace sunload {
 class SunFaces {
  public:
   static constexpr std::size_t most_corners = 15;  ///< of a face
+  static constexpr std::size_t most_corners_of_all = std::max(most_corners, BodyCore::most_corners);
 
   /// Triangles of one plane are joined where what they make is convex and flat within `flat_m`.
   SunFaces(const Scene& scene, double flat_m);
 
-  std::size_t count() const { return normal_.size(); }
+  std::size_t count() const { return face_count_; }
+  std::size_t count_with_cores() const { return normal_.size(); }
+  bool is_core(std::size_t number) const { return number >= face_count_; }
+  /// What follows, but for the normal, is told of cores as well.
   std::size_t corner_count() const { return corner_.size(); }
-  /// Where the face's corners begin among those of all faces.
+  /// Where the face's corners begin among those of all.
   std::size_t first_corner(std::size_t face) const { return begin_[face]; }
-  /// Counter-clockwise about its normal.
+  /// Counter-clockwise about its normal; of a core in any order.
   std::span<const Vec3> corners(std::size_t face) const {
     return std::span(corner_).subspan(begin_[face], begin_[face + 1] - begin_[face]);
   }
   Vec3 normal(std::size_t face) const { return normal_[face]; }
+  std::span<const std::array<std::uint8_t, 2>> edges_of_core(std::size_t core) const {
+    return edges_of_core_[core - face_count_];
+  }
   /// All of the face lies within `radius` about `centre`.
   struct Sphere {
     Vec3 centre;
@@ -51,6 +61,7 @@ class SunFaces {
  private:
   void add(const std::vector<Vec3>& corners, Vec3 normal, bool is_screen, Closed body);
 
+  std::size_t face_count_ = 0;
   std::vector<Vec3> corner_, normal_;
   std::vector<std::uint32_t> begin_{0};
   std::vector<Sphere> sphere_;
@@ -58,6 +69,7 @@ class SunFaces {
   double top_of_all_ = -1e300;
   std::vector<std::uint8_t> is_screen_;
   std::vector<Closed> body_;
+  std::vector<std::vector<std::array<std::uint8_t, 2>>> edges_of_core_;
 };
 
 }  // namespace sunload

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "solver/sight/cell_rows.h"
+#include "solver/sight/view_hull.h"
 
 namespace sunload {
 
@@ -18,15 +19,25 @@ SunView::SunView(const SunFaces& faces, const Extent& extent, const SunCluster& 
   const ViewPoint centre = suns.frame(extent.centre);
   x0_ = centre.x - extent.radius_m;
   y0_ = centre.y - extent.radius_m;
-  project_faces();
-  list_faces();
+  project();
+  std::array<std::vector<std::uint32_t>, 2> numbers;
+  const double drift = std::max(suns_.drift_x, suns_.drift_y);
+  for (std::size_t f = 0; f < faces_.count_with_cores(); ++f)
+    if (faces_.is_needed(f, suns_.frame.to_sun, 2 * drift))
+      numbers[faces_.is_core(f) ? 1 : 0].push_back(static_cast<std::uint32_t>(f));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::sort(numbers[i].begin(), numbers[i].end(), [this](std::uint32_t a, std::uint32_t b) {
+      const double of_a = bounds_[a].highest.along, of_b = bounds_[b].highest.along;
+      return of_a != of_b ? of_a > of_b : a < b;
+    });
+    in_cell_[i] = listed(numbers[i]);
+  }
 }
 
-void SunView::project_faces() {
+void SunView::project() {
   corner_.resize(faces_.corner_count());
-  bounds_.resize(faces_.count());
-  const double drift = std::max(suns_.drift_x, suns_.drift_y);
-  for (std::size_t f = 0; f < faces_.count(); ++f) {
+  bounds_.resize(faces_.count_with_cores());
+  for (std::size_t f = 0; f < bounds_.size(); ++f) {
     Bounds bounds{{}, {faces_.top(f), -std::numeric_limits<double>::infinity()}};
     std::size_t at = faces_.first_corner(f);
     for (const Vec3& corner : faces_.corners(f)) {
@@ -37,40 +48,36 @@ void SunView::project_faces() {
     }
     bounds_[f] = bounds;
     highest_.along = std::max(highest_.along, bounds.highest.along);
-    if (faces_.is_needed(f, suns_.frame.to_sun, 2 * drift))
-      needed_.push_back(static_cast<std::uint32_t>(f));
   }
   highest_.z = faces_.top();
-  std::sort(needed_.begin(), needed_.end(), [this](std::uint32_t a, std::uint32_t b) {
-    const double of_a = bounds_[a].highest.along, of_b = bounds_[b].highest.along;
-    return of_a != of_b ? of_a > of_b : a < b;
-  });
 }
 
-void SunView::list_faces() {
+SunView::InCells SunView::listed(const std::vector<std::uint32_t>& highest_first) const {
   struct Entry {
-    std::uint32_t cell, face;
+    std::uint32_t cell, number;
   };
   std::vector<Entry> entries;
-  first_.assign(across_ * across_ + 1, 0);
+  InCells in{std::vector<std::uint32_t>(across_ * across_ + 1, 0), {}};
   CellRows rows(across_);
-  for (const auto f : needed_) {
-    const auto corners =
-        std::span(corner_).subspan(faces_.first_corner(f), faces_.corners(f).size());
+  std::vector<ViewCorner> hull;
+  for (const auto f : highest_first) {
+    auto corners = std::span(corner_).subspan(faces_.first_corner(f), faces_.corners(f).size());
+    if (faces_.is_core(f)) corners = convex_hull(corners, hull);
     rows.take(corners, x0_, y0_, cells_per_m_);
     for (std::size_t r = rows.first(); r <= rows.last(); ++r) {
       const auto columns = rows.columns(r);
       for (std::size_t c = columns.first; c <= columns.last; ++c) {
         const std::size_t at = r * across_ + c;
         entries.push_back({static_cast<std::uint32_t>(at), f});
-        ++first_[at + 1];
+        ++in.first[at + 1];
       }
     }
   }
-  for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
-  face_.resize(entries.size());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (const Entry& entry : entries) face_[next[entry.cell]++] = entry.face;
+  for (std::size_t c = 1; c < in.first.size(); ++c) in.first[c] += in.first[c - 1];
+  in.number.resize(entries.size());
+  std::vector<std::uint32_t> next(in.first.begin(), in.first.end() - 1);
+  for (const Entry& entry : entries) in.number[next[entry.cell]++] = entry.number;
+  return in;
 }
 
 }  // namespace sunload

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -58,8 +59,11 @@ class SunView {
   }
   /// Faces that reach into a cell, by what of them is highest along the light: the highest first.
   std::span<const std::uint32_t> faces_in(std::size_t column, std::size_t row) const {
-    const std::size_t cell = row * across_ + column;
-    return std::span(face_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+    return in_cell_[0].of(row * across_ + column);
+  }
+  /// Cores likewise.
+  std::span<const std::uint32_t> cores_in(std::size_t column, std::size_t row) const {
+    return in_cell_[1].of(row * across_ + column);
   }
 
  private:
@@ -67,18 +71,24 @@ class SunView {
     const double at = along_m * cells_per_m_;
     return at > 0 ? std::min(static_cast<std::size_t>(at), across_ - 1) : 0;
   }
-  void project_faces();
-  void list_faces();
+  /// What reaches into each cell.
+  struct InCells {
+    std::vector<std::uint32_t> first, number;
+    std::span<const std::uint32_t> of(std::size_t cell) const {
+      return std::span(number).subspan(first[cell], first[cell + 1] - first[cell]);
+    }
+  };
+  void project();
+  InCells listed(const std::vector<std::uint32_t>& highest_first) const;
 
   const SunFaces& faces_;
   const SunCluster& suns_;
   double x0_, y0_, cells_per_m_;
   std::size_t across_;
   Height highest_{-1e300, -1e300};
-  std::vector<ViewCorner> corner_;  ///< of all faces
+  std::vector<ViewCorner> corner_;  ///< of all faces and cores
   std::vector<Bounds> bounds_;
-  std::vector<std::uint32_t> needed_;  ///< in the same order
-  std::vector<std::uint32_t> first_, face_;
+  std::array<InCells, 2> in_cell_;  ///< faces that are needed, cores
 };
 
 }  // namespace sunload

@@ -235,6 +235,13 @@ TEST(Commands, OnlyTheVariantsAskedFor) {
   EXPECT_TRUE(std::filesystem::exists(square.result("mirror")));
 }
 
+/// The variable of a script that has never been set: not the study's own folder.
+TEST(Commands, AnEmptyFolderIsRefused) {
+  const CommandedSquare square;
+  EXPECT_EQ(square.run({"run", "--output", ""}).code, 2);
+  EXPECT_FALSE(std::filesystem::exists(square.result("baseline")));
+}
+
 TEST(Commands, RunAgain) {
   const CommandedSquare square;
   ASSERT_EQ(square.run({"run"}).code, 0);

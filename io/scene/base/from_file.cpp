@@ -4,14 +4,11 @@
 
 #include <cmath>
 
+#include "geo/base/coordinates.h"
+
 namespace sunload {
 
 namespace {
-
-/// Projected coordinates with a zone prefix reach 6e7 m (Gauss–Krüger zones up to 60): two
-/// decades of room, for scenes that are made to try the program; a double still resolves 2 µm
-/// there.
-constexpr double largest_coordinate_m = 1e10;
 
 /// Two million objects of 60 characters; tables hold each name up to four times.
 constexpr std::size_t most_name_bytes = 120'000'000;

@@ -38,6 +38,36 @@ TEST(WorkProbe, MeasuresEveryStageThatThereIs) {
   }
 }
 
+/// What sensors take is told beside what patches take, and changes nothing of that.
+TEST(WorkProbe, MeasuresSensorsByThemselves) {
+  const std::string few = study("brick", one_day);
+  std::string many = few + "sensors: {points: [";
+  for (int i = 0; i < 500; ++i)
+    many += "{position_m: [" + std::to_string(i % 25 - 12) + ", 0, 30], normal: [0, 0, 1]}, ";
+  many += "]}\n";
+  const auto without = test::plan_of(few), with = test::plan_of(many);
+  constexpr std::size_t patches = 10'000;
+  const BlockCounts block{.lines_per_patch = 64, .direct_samples = 16, .suns = 16};
+  const WorkSeconds a = modelled_seconds(without, patches, block),
+                    b = modelled_seconds(with, patches, block);
+  EXPECT_EQ(a.lines, b.lines);
+  EXPECT_EQ(a.direct, b.direct);
+  EXPECT_EQ(a.solve, b.solve);
+  EXPECT_EQ(a.sensors, 0);
+  EXPECT_GT(b.sensors, 0);
+  const auto pace = measured_pace(with, unrefined_mesh(with).mesh);
+  ASSERT_TRUE(pace);
+  EXPECT_NE(pace->sensors, 1);
+  // Each looks at every sun of the day with each of its samples.
+  const double rays = static_cast<double>(estimate_work(with, patches).direct_rays) -
+                      static_cast<double>(estimate_work(without, patches).direct_rays);
+  const double suns = static_cast<double>(with.light.sun_samples());
+  EXPECT_NEAR(rays, 500 * suns * with.study.solver.direct_samples, 500);
+  WorkPace slow;
+  slow.sensors = 10;
+  EXPECT_GT(estimate_work(with, patches, slow).seconds, estimate_work(with, patches).seconds);
+}
+
 /// Low suns cost many times what high ones do, and suns of one hour of many days less together.
 TEST(WorkProbe, TriesNeighboursLowAndHigh) {
   const auto plan =

@@ -512,6 +512,10 @@ TEST(Study, ChecksDaysByName) {
       "depends on the hemisphere");
 }
 
+TEST(Study, TakesNoTildeForAHomeFolder) {
+  expect_problem({{"output", "{folder: ~/results}"}}, "begins with ~");
+}
+
 TEST(Study, ChecksTheTimes) {
   const auto wrong = [](const std::string& period, const std::string& part) {
     expect_problem({{"period", period}}, part);
@@ -522,6 +526,7 @@ TEST(Study, ChecksTheTimes) {
   wrong("{days: [2026-06-21, 2026-06-21]}", "is not after the day before it");
   wrong("{days: [2026-06-21T12:00]}", "has a time of day");
   wrong("{days: [2026-02-29]}", "is no date of the calendar");
+  wrong("{days: [0000-06-21]}", "is no date of the calendar");
   wrong("{days: 2026-06-21}", "write [2026-06-21]");
   wrong("{days: []}", "the list is empty");
   wrong("{days: [2026-06-21], from: '20:00', to: '06:00'}", "is not after `from`");

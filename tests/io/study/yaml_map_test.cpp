@@ -50,6 +50,14 @@ TEST(Yaml, GivesThePlaceOfSyntaxErrors) {
   EXPECT_NE(problems[0].find("is no valid YAML"), std::string::npos);
 }
 
+TEST(Yaml, NamesTheTabThatIndentsALine) {
+  const auto problems = problems_of("a: 1\nb:\n  c: {d: 2}\n\te: 3\n", keep_all);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].substr(0, 11), "f.yaml:4:1:") << problems[0];
+  EXPECT_NE(problems[0].find("a tab begins the line"), std::string::npos) << problems[0];
+  EXPECT_TRUE(problems_of("a: [1,\n\t2]\n", keep_all).empty());  // within brackets it may
+}
+
 TEST(Yaml, RefusesWhatIsNoStudyText) {
   const auto first = [](const std::string& text) {
     const auto problems = problems_of(text, keep_all);

@@ -12,7 +12,7 @@ namespace sunload::test {
 namespace {
 
 std::vector<Closed> bodies_of(const Scene& scene, const std::vector<float>& transmittance = {}) {
-  return closed_bodies(Occluders(scene.mesh, transmittance));
+  return closed_bodies(Occluders(scene.mesh, transmittance)).turned;
 }
 
 SceneBuilder boxes(std::initializer_list<std::pair<Vec3, Vec3>> all, SceneBuilder::Facing facing) {
