@@ -89,11 +89,12 @@ struct PrepareReport {
   std::size_t floors = 0;  ///< triangles that touch the ground: cast shadows, are no patches
   std::array<double, surface_names.size()> area_m2{};     ///< per surface kind
   std::array<double, surface_names.size()> covered_m2{};  ///< of it: no light can reach it
-  std::optional<GroundReport> ground;                     ///< where one was asked for
-  double volume_m3 = 0;                                   ///< of all closed bodies
-  double worst_aspect = 0;            ///< longest edge / shortest height of a triangle
-  Box bounds;                         ///< relative to the mesh's origin, ground plate included
-  std::vector<std::string> warnings;  ///< ready to print, each states its consequence
+  double dark_backs_m2 = 0;            ///< of two-sided faces, inside of houses: no patches
+  std::optional<GroundReport> ground;  ///< where one was asked for
+  double volume_m3 = 0;                ///< of all closed bodies
+  double worst_aspect = 0;             ///< longest edge / shortest height of a triangle
+  Box bounds;                          ///< relative to the mesh's origin, ground plate included
+  std::vector<std::string> warnings;   ///< ready to print, each states its consequence
 };
 
 /// A mesh that is fit for rays, with what later steps need of its preparation.

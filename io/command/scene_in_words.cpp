@@ -42,6 +42,10 @@ std::string counts_text(const PrepareReport& r) {
   if (!covered.empty())
     text += "  covered  " + covered +
             ": inside of bodies, against other surfaces or below land; no patches\n";
+  if (r.dark_backs_m2 > 0)
+    text += fmt::format(
+        "  backs     {:.6g} m2 of faces with two sides look into houses: they are no patches\n",
+        r.dark_backs_m2);
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geo/mesh/covered.h"
+#include "geo/mesh/dark_backs.h"
 #include "geo/mesh/overlap.h"
 #include "geo/sun/map_axes.h"
 #include "geo/sun/weather.h"
@@ -282,6 +283,8 @@ namespace {
 constexpr std::uint8_t opaque = 1, two_sided = 2, emitting = 4;
 /// Of all of them: something lights closed rooms.
 constexpr std::uint8_t lamps_within = 8;
+/// Its back is in a house.
+constexpr std::uint8_t dark_back = 16;
 
 /// What follows from surfaces that lie in others, in words.
 struct Consequence {
@@ -312,6 +315,15 @@ void warn_of_doubled(const Doubled& doubled, const Mesh& mesh, const Consequence
               consequence.why, consequence.what_to_try));
 }
 
+/// What has a dark back is lit from one side.
+void mark_dark_backs(const Mesh& mesh, const Bodies& bodies, std::vector<std::uint8_t>& covers) {
+  std::vector<std::uint8_t> is_opaque(covers);
+  for (std::uint8_t& of_triangle : is_opaque) of_triangle &= opaque;
+  const auto backs = dark_backs(mesh, bodies, is_opaque);
+  for (std::size_t t = 0; t < covers.size(); ++t)
+    if (backs[t] != 0) covers[t] = static_cast<std::uint8_t>((covers[t] & ~two_sided) | dark_back);
+}
+
 }  // namespace
 
 // Materials are assigned anew afterwards, since a file's power is shared by what is left of its
@@ -335,6 +347,8 @@ std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepar
   }
   if (has_lamps)
     for (std::uint8_t& of_triangle : covers) of_triangle |= lamps_within;
+  else
+    mark_dark_backs(scene.mesh, prepared.bodies, covers);
   return covers;
 }
 
@@ -366,8 +380,13 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
     const bool has_lamps = !covers.empty() && (covers.front() & lamps_within) != 0;
     const CoveredCut cut = cut_covered(mesh, built.bodies, is_opaque, built.seals, emits,
                                        has_lamps ? Cavities::lit : Cavities::dark);
-    for (std::size_t t = 0; t < cut.source.size(); ++t)
+    for (std::size_t t = 0; t < cut.source.size(); ++t) {
       mesh.triangle_sides[t] = sides_of_files[cut.source[t]];
+      const bool is_dark = (covers[cut.source[t]] & dark_back) != 0;
+      built.dark_backs.push_back(is_dark);
+      if (is_dark && mesh.bears_patches(t))
+        built.report.dark_backs_m2 += norm(mesh.area_vector2(t)) / 2;
+    }
     if (cut.covered > 0 || cut.taken.area_m2 > 0) measure(mesh, built.report);
     warn_of_doubled(cut.taken, prepared.scene.mesh, are_left_out, built);
   }
@@ -380,10 +399,16 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
   return built;
 }
 
+void take_dark_backs(const BuiltScene& built, Mesh& mesh) {
+  for (std::size_t t = 0; t < built.dark_backs.size(); ++t)
+    if (built.dark_backs[t] != 0) mesh.triangle_sides[t] = Sides::one;
+}
+
 void give_materials(const Study& study, BuiltScene& built) {
   built.sides_of_files = built.scene.mesh.triangle_sides;
   built.rules =
       assign_materials(study, {built.crs, built.site.north_deg}, built.scene, built.warnings);
+  take_dark_backs(built, built.scene.mesh);
   warn_of_reflectances(study, built);
   if (const auto uncut = uncut_warning(study.scene, built); !uncut.empty())
     built.warnings.push_back(uncut);

@@ -28,8 +28,11 @@ struct BuiltScene {
   std::vector<std::string> warnings;  ///< each states its consequence
   std::vector<RuleUse> rules;         ///< of scene.assign, in their order
   std::vector<Sides> sides_of_files;  ///< per triangle, before materials decided
-  std::vector<FoundFacade> facades;   ///< that north may give other names
-  Bodies bodies;                      ///< with `seals`: of the mesh, until what is covered is cut
+  /// Per triangle 1 where its back is in a house, and is no patch whatever its material says;
+  /// empty: nowhere (geo/mesh/dark_backs).
+  std::vector<std::uint8_t> dark_backs;
+  std::vector<FoundFacade> facades;  ///< that north may give other names
+  Bodies bodies;                     ///< with `seals`: of the mesh, until what is covered is cut
   std::vector<std::uint8_t> seals;
 };
 
@@ -54,6 +57,8 @@ std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepar
 /// The second step: the scene without what is covered. Of materials it depends on `covers` alone.
 BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
                            const std::vector<std::uint8_t>& covers);
+/// Materials' sides, where a back is not dark.
+void take_dark_backs(const BuiltScene& built, Mesh& mesh);
 /// The last step: gives materials, parallel sources, luminaires and sensors.
 void give_materials(const Study& study, BuiltScene& built);
 

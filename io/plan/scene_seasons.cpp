@@ -235,6 +235,7 @@ SceneSeason season_of(const Study& study, const MaterialsWhen& when, const Built
   scene.mesh.triangle_sides = built.sides_of_files;  // by which a file's lamps share their power
   std::vector<std::string> said_before;
   assign_materials(study, {built.crs, built.site.north_deg}, scene, said_before, when);
+  take_dark_backs(built, scene.mesh);
   const std::string name = in_words(when);
   expect_same_patches(study, built.scene, scene, name);
   return {name, std::move(scene.materials), std::move(scene.material)};

@@ -58,7 +58,7 @@ const std::vector<Format>& formats() {
        {".tif", ".tiff"},
        read_scene_raster},
       {"ESRI ASCII raster", {"ncols", "NCOLS"}, {".asc"}, read_scene_raster},
-      {"footprints (GeoJSON, GeoPackage, Shapefile)",
+      {"footprints (GeoJSON, GeoPackage, Shapefile, FlatGeobuf)",
        {},
        {".geojson", ".gpkg", ".shp", ".fgb"},
        read_scene_footprints},
