@@ -108,7 +108,12 @@ class Cutter {
         const auto overlap = overlap_with(u);
         if (overlap && covers_.is_solid_behind(t_, plane_.lifted(middle(overlap->shared))))
           add(against_, overlap);
-      } else if (covers_.is_against(t_, u) || covers_.is_behind(t_, u)) {
+      } else if (covers_.is_behind(t_, u)) {
+        // What shades the one before it is not only hidden, but must go.
+        const bool goes = covers_.comes_before(t_, u);
+        if (add(goes ? taken_ : against_, overlap_with(u)) && goes)
+          first_taker_ = std::min(first_taker_.value_or(u), u);
+      } else if (covers_.is_against(t_, u)) {
         add(against_, overlap_with(u));
       } else if (const Meets meets = covers_.ending(t_, u); meets == Meets::through) {
         if (const auto line = cut_by(u, 0)) lines_.push_back(*line);

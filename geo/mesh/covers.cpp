@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geo/base/check.h"
+#include "geo/mesh/clip.h"
 #include "geo/mesh/covered.h"
 #include "geo/mesh/overlap.h"
 #include "geo/mesh/plumb_line.h"
@@ -78,7 +79,8 @@ bool Covers::is_in_place_of(std::size_t t, std::size_t u) const {
   // Windows lie on their walls in whole millimetres only.
   const double within =
       is_window(t) == is_window(u) ? same_place_ : std::max(same_place_, contact_);
-  return is_near_plane(t, u, within) && is_near_plane(u, t, within);
+  const auto between = gap(t, u);
+  return between && between->is_within(within);
 }
 
 bool Covers::is_taken(std::size_t t, std::size_t u) const {
@@ -92,25 +94,53 @@ bool Covers::is_taken(std::size_t t, std::size_t u) const {
 
 bool Covers::is_behind(std::size_t t, std::size_t u) const {
   if (!is_opaque_[u] || faces_both(t) || are_of_one_body(t, u) || !may_replace(t, u)) return false;
-  if (!is_near_plane(t, u, looked_at_m()) || !is_near_plane(u, t, looked_at_m())) return false;
-  if (is_in_place_of(t, u)) return false;
-  // Of two that go through each other one only: by how far they are before each other all in all.
-  double before = 0;
-  for (const Vec3 corner : corners(u)) before += distance(t, corner);
-  const double facing = dot(normal_[t], normal_[u]) > 0 ? 1 : -1;
-  for (const Vec3 corner : corners(t)) before -= facing * distance(u, corner);
-  return before > 0;
+  const auto between = gap(t, u);
+  if (!between || !between->is_within(looked_at_m()) || is_in_place_of(t, u)) return false;
+  return between->mean > 0 || (between->mean == 0 && t > u);
+}
+
+bool Covers::comes_before(std::size_t t, std::size_t u) const {
+  const auto between = gap(t, u);
+  return between && between->least <= same_place_;
 }
 
 bool Covers::is_against(std::size_t t, std::size_t u) const {
   if (!is_opaque_[u] || faces_both(t) || dot(normal_[t], normal_[u]) >= 0) return false;
-  const bool is_u_near = is_near_plane(t, u, contact_);
-  if (!is_u_near && !is_near_plane(u, t, contact_)) return false;
-  double before = 0;
-  for (const Vec3 corner : corners(is_u_near ? u : t))
-    before += distance(is_u_near ? t : u, corner) / 3;
-  if (before >= -same_place_) return true;
+  const auto between = gap(t, u);
+  if (!between || !between->is_within(contact_)) return false;
+  if (between->mean >= -same_place_) return true;
   return !are_of_one_body(t, u) && reaches_before(t, bodies_.triangle_body[u]);
+}
+
+// Where they overlap, not where their planes do: the plane of a pane that is written in whole
+// millimetres is centimetres off the far end of its wall.
+std::optional<Covers::Gap> Covers::gap(std::size_t t, std::size_t u) const {
+  constexpr double least_cosine = 0.5;
+  constexpr double least_overlap = 1e-6;  // of the smaller one: less is an edge in common
+  // The same for both of them, whichever asks.
+  const std::size_t a = std::min(t, u), b = std::max(t, u);
+  const double facing = dot(normal_[a], normal_[b]);
+  if (std::abs(facing) < least_cosine) return {};
+  const auto of_a = corners(a), of_b = corners(b);
+  std::vector<Vec3> shared(of_b.begin(), of_b.end());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 inward = cross(normal_[a], of_a[(k + 1) % 3] - of_a[k]);
+    shared = clipped(shared, [&](Vec3 p) { return dot(inward, p - of_a[k]); });
+  }
+  Vec3 twice{0, 0, 0};
+  for (std::size_t i = 2; i < shared.size(); ++i)
+    twice += cross(shared[i - 1] - shared[0], shared[i] - shared[0]);
+  const double smaller = std::min(norm(mesh_.area_vector2(a)), norm(mesh_.area_vector2(b)));
+  if (norm(twice) <= least_overlap * smaller) return {};
+  Gap of{1e300, -1e300, 0};
+  for (const Vec3& p : shared) {
+    const double before_a = distance(a, p);
+    const double before = t == a || facing < 0 ? before_a : -before_a;
+    of.least = std::min(of.least, before);
+    of.most = std::max(of.most, before);
+    of.mean += before / static_cast<double>(shared.size());
+  }
+  return of;
 }
 
 /// +1 where `u` lies above `p` and looks up, -1 down, else 0: the sum over a body is its inside.
@@ -283,12 +313,6 @@ bool Covers::is_in_closed(std::size_t t) const {
 bool Covers::is_in_cavity(std::size_t t) const {
   const auto b = bodies_.triangle_body[t];
   return is_in_closed(t) && bodies_.bodies[static_cast<std::size_t>(b)].volume < 0;
-}
-
-bool Covers::is_near_plane(std::size_t plane, std::size_t of, double within) const {
-  for (int k = 0; k < 3; ++k)
-    if (std::abs(distance(plane, mesh_.corner(of, k))) > within) return false;
-  return true;
 }
 
 bool Covers::is_cut(std::size_t plane, std::size_t of) const {

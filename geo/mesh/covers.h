@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "geo/mesh/box_tree.h"
@@ -70,8 +71,11 @@ class Covers {
   /// are alike the first is there; before others what emits, then windows (as near as the contact,
   /// and light may go through them), then what faces both ways; last bare terrain.
   bool is_taken(std::size_t t, std::size_t u) const;
-  /// Whether `u` hides `t`, which faces the same way, from as near as `looked_at_m()`.
+  /// Whether `u` hides `t`, which faces the same way, from as near as `looked_at_m()` wherever they
+  /// overlap: of two that go through each other there one only.
   bool is_behind(std::size_t t, std::size_t u) const;
+  /// Whether `t`, which is behind `u`, comes before it somewhere, or so near that it may shade it.
+  bool comes_before(std::size_t t, std::size_t u) const;
   /// Front against front, as near as the contact where they overlap; not back to back. Of one body
   /// what is in one place may be either.
   bool is_against(std::size_t t, std::size_t u) const;
@@ -112,7 +116,14 @@ class Covers {
   double distance(std::size_t plane, Vec3 p) const {
     return dot(p - mesh_.corner(plane, 0), normal_[plane]);
   }
-  bool is_near_plane(std::size_t plane, std::size_t of, double within) const;
+  /// How far one surface is before another where they overlap [m], by the corners of that.
+  struct Gap {
+    double least = 0, most = 0, mean = 0;
+    bool is_within(double distance_m) const { return most <= distance_m && least >= -distance_m; }
+  };
+  /// Of `u` before `t`, along the normal of t; of t before u the same but for the sign. Nothing
+  /// where they have next to nothing in common, or are far from parallel.
+  std::optional<Gap> gap(std::size_t t, std::size_t u) const;
   bool is_cut(std::size_t plane, std::size_t of) const;
   double plane_height(std::size_t t, double x, double y) const;
 

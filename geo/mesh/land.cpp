@@ -19,6 +19,7 @@ namespace sunload {
 namespace {
 
 constexpr int border_points = 32;  // on each side of the rectangle, where the land is not level
+constexpr double most_border_points = 1000;
 // Lines of n pieces may cross n² times; houses that overlap cross a few times each.
 constexpr std::size_t crossings_per_line = 8, fewest_crossings = 100;
 
@@ -160,11 +161,16 @@ class LandMaker {
                             {box.high.x, box.low.y, box.low.z},
                             {box.high.x, box.high.y, box.low.z},
                             {box.low.x, box.high.y, box.low.z}};
-    for (std::size_t k = 0; k < 4; ++k)
-      for (int i = 0; i < count; ++i) {
-        const Vec3 from = corners[k], to = corners[(k + 1) % 4];
-        add_border_point(from + (static_cast<double>(i) / count) * (to - from), hull);
-      }
+    const Vec3 size = box.high - box.low;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3 from = corners[k], to = corners[(k + 1) % 4];
+      // Triangles at the long sides of a strip would be needles all along it.
+      const double across =
+          std::floor(norm(to - from) / std::max(std::min(size.x, size.y), land_snap_m));
+      const int pieces = std::max(count, static_cast<int>(std::min(across, most_border_points)));
+      for (int i = 0; i < pieces; ++i)
+        add_border_point(from + (static_cast<double>(i) / pieces) * (to - from), hull);
+    }
   }
 
   void add_border_point(Vec3 p, const std::vector<Segment>& hull) {

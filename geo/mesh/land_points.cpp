@@ -35,7 +35,9 @@ class QuadTree {
   void split(Vec3 middle, double side) {
     const Vec3 off = middle - centre_of(rectangle_), half = half_of(rectangle_);
     if (std::abs(off.x) > half.x + side / 2 || std::abs(off.y) > half.y + side / 2) return;
-    if (side / 2 >= finest_ && has_lines_within(middle, side)) {
+    // None in a strip would be open that is wider than half of it: land of needles.
+    const bool is_wide = side >= std::min(half.x, half.y);
+    if (side / 2 >= finest_ && (is_wide || has_lines_within(middle, side))) {
       for (const double dx : {-0.25, 0.25})
         for (const double dy : {-0.25, 0.25}) split(middle + Vec3{dx, dy, 0} * side, side / 2);
     } else if (is_open(middle, side / 2)) {

@@ -15,8 +15,9 @@ namespace sunload {
 inline constexpr double finest_land_m = 2;
 
 /// Middles of the cells of a quadtree over a rectangle around the lines: cells are as wide as the
-/// next line is away, give or take a factor of 2, and no narrower than the mean length of the feet,
-/// nor than `finest_land_m`; z is 0. None where there are no feet. Cost: some 2 µs for a point.
+/// next line is away, give or take a factor of 2, less than half as wide as the rectangle, and no
+/// narrower than the mean length of the feet, nor than `finest_land_m`; z is 0. None where there
+/// are no feet. Cost: some 2 µs for a point.
 ///
 /// Graded as the quadtrees of Bern, Eppstein & Gilbert (1994), Provably good mesh generation, with
 /// lines left whole.

@@ -263,6 +263,8 @@ BuiltScene scene_before_materials(const Study& study) {
   built.bodies = std::move(prepared.bodies);
   if (const auto lying = lying_warning(study, built, model.is_city_format); !lying.empty())
     built.warnings.push_back(lying);
+  if (const auto lone = lone_piece_warning(study, built); !lone.empty())
+    built.warnings.push_back(lone);
   warn_of_no_land(study.scene, built.scene.mesh, built.warnings);
   built.seals = std::move(prepared.seals);
   built.facades = std::move(prepared.facades);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "geo/mesh/box_tree.h"
 #include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
 #include "io/study/material_table.h"
@@ -17,6 +18,12 @@
 namespace sunload {
 
 namespace {
+
+void include_all(Box& box, const Box& other) {
+  if (other.low.x > other.high.x) return;  // empty
+  include(box, other.low);
+  include(box, other.high);
+}
 
 Vec3 centre_of_triangle(const Mesh& mesh, std::size_t t) {
   return (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3;
@@ -81,6 +88,45 @@ void warn_of_colours(const OfKinds& shown, BuiltScene& built) {
 }
 
 }  // namespace
+
+std::string lone_piece_warning(const Study& study, const BuiltScene& prepared) {
+  constexpr double far_off = 10, little_area = 0.01;
+  const Mesh& mesh = prepared.scene.mesh;
+  const auto& bodies = prepared.bodies.bodies;
+  std::vector<std::uint8_t> is_land(bodies.size(), 0);
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (const auto b = prepared.bodies.triangle_body[t];
+        b >= 0 && mesh.triangle_surface[t] == Surface::ground)
+      is_land[static_cast<std::size_t>(b)] = 1;
+  double area = 0;
+  std::vector<Box> from(bodies.size() + 1);  // all from a body on
+  for (std::size_t b = bodies.size(); b > 0; --b) {
+    from[b - 1] = from[b];
+    if (is_land[b - 1]) continue;
+    include_all(from[b - 1], bodies[b - 1].box);
+    area += bodies[b - 1].area;
+  }
+  Box before;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (is_land[b]) continue;
+    Box rest = before;
+    include_all(rest, from[b + 1]);
+    include_all(before, bodies[b].box);
+    const double all_m = norm(from[0].high - from[0].low), rest_m = norm(rest.high - rest.low);
+    if (rest.low.x > rest.high.x || bodies[b].area > little_area * area) continue;
+    if (all_m <= far_off * rest_m) continue;
+    const Vec3 at = mesh.origin + centre_of(bodies[b].box);
+    return message(
+        study.scene.where,
+        fmt::format("a piece of '{}' lies at ({:.6g}, {:.6g}, {:.6g}), {:.4g} m away from all "
+                    "else, which is {:.4g} m across",
+                    mesh.object_names[bodies[b].object.index()], at.x, at.y, at.z, all_m - rest_m,
+                    rest_m),
+        "the ground reaches there, and all of it is computed",
+        "is it a stray one? a step of scene.edit removes objects");
+  }
+  return {};
+}
 
 std::string north_warning(const SiteStudy& given, const std::string& crs, double map_north_deg) {
   constexpr double worth_telling_deg = 0.5;  // the sun's diameter: shadows of houses move by less

@@ -13,6 +13,10 @@ namespace sunload {
 /// formats that do not say which way is up. Empty where it stands.
 std::string lying_warning(const Study& study, const BuiltScene& prepared, bool is_city_format);
 
+/// Warns of a small piece that lies many times as far from all else as that is wide; empty where
+/// there is none.
+std::string lone_piece_warning(const Study& study, const BuiltScene& prepared);
+
 /// Warns where `north_deg` of a study is not the direction that the scene's map gives [degrees];
 /// empty where shadows are as good as the same.
 std::string north_warning(const SiteStudy& given, const std::string& crs, double map_north_deg);

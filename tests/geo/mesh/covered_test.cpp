@@ -479,6 +479,86 @@ TEST(Covered, AHouseThatIsThereTwiceAMillimetreApartIsLitOnce) {
   }
 }
 
+Vec3 in_millimetres(Vec3 v) {
+  const auto rounded = [](double x) { return std::round(x * 1000) / 1000; };
+  return {rounded(v.x), rounded(v.y), rounded(v.z)};
+}
+
+/// Share of the area of patches before which, within 5 mm, there is any other surface: of points
+/// tried on each.
+double share_behind_something(const Mesh& mesh) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  double tried = 0, behind = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!mesh.bears_patches(t)) continue;
+    const Vec3 normal = normalized(mesh.area_vector2(t));
+    const double of_point = norm(mesh.area_vector2(t));
+    for (int i = 0; i < 200; ++i) {
+      tried += of_point;
+      double u = uniform(random), v = uniform(random);
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      const Vec3 p = mesh.corner(t, 0) + u * (mesh.corner(t, 1) - mesh.corner(t, 0)) +
+                     v * (mesh.corner(t, 2) - mesh.corner(t, 0));
+      for (std::size_t other = 0; other < mesh.triangle_count(); ++other) {
+        const Vec3 a = mesh.corner(other, 0), area = mesh.area_vector2(other);
+        const double facing = dot(area, normal);
+        if (other == t || facing <= 0) continue;
+        const double before = dot(area, a - p) / facing;
+        const Vec3 q = p + before * normal;
+        bool is_in = before > 1e-6 && before < 5e-3;
+        for (int k = 0; k < 3; ++k)
+          is_in = is_in && dot(area, cross(mesh.corner(other, (k + 1) % 3) - mesh.corner(other, k),
+                                           q - mesh.corner(other, k))) > 0;
+        if (is_in) behind += of_point;
+      }
+    }
+  }
+  return behind / tried;
+}
+
+/// Rounding tilts the copy's faces by a millimetre: what is left of one must not stand before what
+/// is left of the other.
+TEST(Covered, AHouseThatIsThereOnceMoreInWholeMillimetresShadesNothing) {
+  for (const double width : {7.3, 9.1, 10.7}) {
+    ModelBuilder house;
+    house.object("house").box({0, 0, 0}, {width, 9, 6.6}).moved(turned);
+    house.object("copy");
+    for (auto face : ModelBuilder::box_faces({0, 0, 0}, {width, 9, 6.6})) {
+      for (Vec3& p : face) p = in_millimetres(turned(p));
+      house.ring(face);
+    }
+    const auto c = cut(house);
+    double open = 0;
+    for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
+      if (c.p.mesh.bears_patches(t)) open += norm(c.p.mesh.area_vector2(t)) / 2;
+    const double once = 2 * (width * 9 + width * 6.6 + 9 * 6.6);
+    EXPECT_NEAR(open, once, 1e-3 * once) << width;
+    EXPECT_LT(share_behind_something(c.p.mesh), 1e-3) << width;
+  }
+}
+
+/// The plane of a pane of 1.5 m in whole millimetres is centimetres off the end of its wall.
+TEST(Covered, WindowsInWholeMillimetresOnAWideWallStay) {
+  auto model = ModelBuilder().city().object("house", "Building").with(Surface::wall);
+  model.ring({{0, 0, 0}, {20, 0, 0}, {20, 0, 15}, {0, 0, 15}}).with(Surface::window);
+  for (const double x : {1.13, 3.5, 5.87, 8.24, 10.61, 12.98, 15.35, 17.72})
+    for (const double z : {2.21, 6.08, 10.47})
+      model.ring({{x, 0, z}, {x + 1.5, 0, z}, {x + 1.5, 0, z + 1.5}, {x, 0, z + 1.5}});
+  model.moved(turned).moved(in_millimetres);
+  const auto c = cut(model);
+  double windows = 0, all = 0;
+  for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t) {
+    if (!c.p.mesh.bears_patches(t)) continue;
+    const double area = norm(c.p.mesh.area_vector2(t)) / 2;
+    all += area;
+    if (c.p.mesh.triangle_surface[t] == Surface::window) windows += area;
+  }
+  EXPECT_NEAR(windows, 24 * 1.5 * 1.5, 0.05);  // sides in whole millimetres
+  EXPECT_NEAR(all, 300, 0.05);
+  EXPECT_LT(share_behind_something(c.p.mesh), 1e-3);
+}
+
 TEST(Covered, WindowsOnTheirWallStay) {
   for (const double before : {-1e-3, 0.0, 1e-3})
     for (const char* see_through : {"", "window"}) {
