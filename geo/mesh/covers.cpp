@@ -112,6 +112,16 @@ bool Covers::is_against(std::size_t t, std::size_t u) const {
   return !are_of_one_body(t, u) && reaches_before(t, bodies_.triangle_body[u]);
 }
 
+/// Whether all of a triangle lies on one side of a plane, further off than matters.
+bool Covers::is_beyond_reach(std::size_t plane, std::size_t of) const {
+  double least = 1e300, most = -1e300;
+  for (const Vec3& corner : corners(of)) {
+    least = std::min(least, distance(plane, corner));
+    most = std::max(most, distance(plane, corner));
+  }
+  return least > reach_m() || most < -reach_m();
+}
+
 // Where they overlap, not where their planes do: the plane of a pane that is written in whole
 // millimetres is centimetres off the far end of its wall.
 std::optional<Covers::Gap> Covers::gap(std::size_t t, std::size_t u) const {
@@ -121,6 +131,7 @@ std::optional<Covers::Gap> Covers::gap(std::size_t t, std::size_t u) const {
   const std::size_t a = std::min(t, u), b = std::max(t, u);
   const double facing = dot(normal_[a], normal_[b]);
   if (std::abs(facing) < least_cosine) return {};
+  if (is_beyond_reach(a, b) || is_beyond_reach(b, a)) return {};
   const auto of_a = corners(a), of_b = corners(b);
   std::vector<Vec3> shared(of_b.begin(), of_b.end());
   for (std::size_t k = 0; k < 3; ++k) {

@@ -122,8 +122,9 @@ class Covers {
     bool is_within(double distance_m) const { return most <= distance_m && least >= -distance_m; }
   };
   /// Of `u` before `t`, along the normal of t; of t before u the same but for the sign. Nothing
-  /// where they have next to nothing in common, or are far from parallel.
+  /// where they have next to nothing in common, are far from parallel, or too far off to matter.
   std::optional<Gap> gap(std::size_t t, std::size_t u) const;
+  bool is_beyond_reach(std::size_t plane, std::size_t of) const;
   bool is_cut(std::size_t plane, std::size_t of) const;
   double plane_height(std::size_t t, double x, double y) const;
 
