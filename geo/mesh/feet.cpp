@@ -10,6 +10,7 @@
 #include "geo/base/units.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/edge_table.h"
+#include "geo/mesh/plan_lines.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -93,6 +94,7 @@ class FootFinder {
     for (std::size_t b = 0; b < feet_.size(); ++b) take_foot(b);
     std::erase_if(
         feet_, [&](const Foot& foot) { return foot.edges.empty() || is_low_without_type(foot); });
+    take_out_panes();
     find_stacked();
     for (Foot& foot : feet_) find_rims(foot);
     find_hovering();
@@ -108,6 +110,39 @@ class FootFinder {
     if (kind_ == SceneKind::plain || !mesh_.object_kinds[foot.object.index()].empty()) return false;
     const Box& box = bodies_.bodies[static_cast<std::size_t>(foot.body)].box;
     return box.high.z - box.low.z < lowest_house_m;
+  }
+
+  bool is_house(std::int32_t body) const {
+    const auto b = static_cast<std::size_t>(body);
+    return bodies_.bodies[b].is_closed || has_roof_[b] != 0;
+  }
+
+  /// Sheets that hang on a house, all along its foot and above it, as panes are which a file has
+  /// beside its walls: land would climb to their sills.
+  void take_out_panes() {
+    constexpr double beside_m = 0.5, least_sill_m = 0.3;
+    std::vector<std::array<Vec3, 2>> house_edges;
+    std::vector<Box> boxes;
+    for (const Foot& foot : feet_)
+      for (const auto& edge : foot.edges)
+        if (is_house(foot.body)) {
+          house_edges.push_back(edge);
+          boxes.push_back(in_plan(box_around({edge[0], edge[1]})));
+        }
+    const BoxTree tree(std::move(boxes));
+    const auto hangs = [&](Vec3 p) {
+      bool has_house_below = false;
+      tree.visit_meeting(upright(widened(Box{p, p}, beside_m)), [&](std::size_t i) {
+        const NearestOnLine found = nearest_in_plan(house_edges[i], p.x, p.y);
+        has_house_below |= found.distance <= beside_m && found.z < p.z - least_sill_m;
+      });
+      return has_house_below;
+    };
+    std::erase_if(feet_, [&](const Foot& foot) {
+      return !is_house(foot.body) && std::ranges::all_of(foot.edges, [&](const auto& edge) {
+        return hangs(edge[0]) && hangs((edge[0] + edge[1]) / 2) && hangs(edge[1]);
+      });
+    });
   }
 
   void measure_bodies() {
@@ -181,9 +216,8 @@ class FootFinder {
       lower.clear();
       return;
     }
-    const bool is_house = body.is_closed || has_roof_[b] != 0;
     double low = low_of_object_[body.object.index()];
-    if (is_house) {
+    if (is_house(static_cast<std::int32_t>(b))) {
       low = infinity;
       for (const auto& e : lower)
         if (has_wall(e)) low = std::min(low, low_of(mesh_, e));

@@ -217,6 +217,35 @@ TEST(Ground, BodiesOnBodiesBaysAndBalconiesAreNoFeet) {
   EXPECT_NEAR(p.report.ground->gap_m.back(), 0, ground_rounding);
 }
 
+/// Panes of a plain file, before a wall or set back into it: land would climb to their sills.
+TEST(Ground, PanesOnWallsHaveNoFeet) {
+  for (const double before : {0.0, 0.03, -0.2}) {
+    auto builder = ModelBuilder().object("house").box({0, 0, 0}, {10, 8, 6}).object("glazing");
+    for (const double x : {1.0, 4.0, 7.0})
+      for (const double z : {0.9, 3.9})
+        builder.ring({{x, -before, z},
+                      {x + 2, -before, z},
+                      {x + 2, -before, z + 1.5},
+                      {x, -before, z + 1.5}});
+    const auto p = builder.prepared(on_feet());
+    ASSERT_TRUE(p.report.ground);
+    EXPECT_EQ(p.report.ground->standing, 1u) << before;
+    for (const double z : ground_at(p.mesh, 2, -0.1)) EXPECT_NEAR(z, 0, ground_rounding) << before;
+  }
+}
+
+/// A garden wall that begins at a house stands on its own feet, up a slope, too.
+TEST(Ground, SheetsThatStandBesideAHouseHaveFeet) {
+  auto builder = ModelBuilder().object("house").box({0, 0, 0}, {10, 8, 6}).object("garden");
+  builder.ring({{10, 4, 0}, {20, 4, 1.5}, {20, 4, 3}, {10, 4, 2}});
+  const auto p = builder.prepared(on_feet());
+  ASSERT_TRUE(p.report.ground);
+  EXPECT_EQ(p.report.ground->standing, 2u);
+  const auto at_end = ground_at(p.mesh, 19.9, 4.01);
+  ASSERT_FALSE(at_end.empty());
+  EXPECT_NEAR(at_end.front(), 1.485, 0.02);
+}
+
 TEST(Ground, HousesWithoutFloorsCoverTheGround) {
   auto builder = ModelBuilder().city().object("house", "Building");
   const auto faces = ModelBuilder::box_faces({0, 0, 1}, {10, 10, 9});
