@@ -16,6 +16,14 @@ inline Point2 between(Point2 p, Point2 q, double s) {
   return {p.u + s * (q.u - p.u), p.v + s * (q.v - p.v)};
 }
 
+/// Twice the area of a flat polygon, along its normal.
+inline Vec3 area_vector2(const std::vector<Vec3>& polygon) {
+  Vec3 sum{0, 0, 0};
+  for (std::size_t k = 2; k < polygon.size(); ++k)
+    sum += cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
+  return sum;
+}
+
 /// The part of a convex polygon where `side`, linear in the point, is not below 0
 /// (Sutherland and Hodgman 1974, Reentrant polygon clipping).
 template <class Point, class Side>

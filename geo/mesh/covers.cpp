@@ -31,6 +31,15 @@ double contact_of(const Mesh& mesh) {
   return std::min(contact_m, contact_ratio * norm(box.high - box.low));
 }
 
+std::vector<std::uint8_t> opaque_bodies(const Bodies& bodies,
+                                        const std::vector<std::uint8_t>& is_opaque) {
+  std::vector<std::uint8_t> are_opaque(bodies.bodies.size(), 1);
+  for (std::size_t t = 0; t < is_opaque.size(); ++t)
+    if (const auto b = bodies.triangle_body[t]; b >= 0 && !is_opaque[t])
+      are_opaque[static_cast<std::size_t>(b)] = 0;
+  return are_opaque;
+}
+
 Covers::Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::uint8_t>& is_opaque,
                const std::vector<std::uint8_t>& seals, const std::vector<std::uint8_t>& emits,
                Cavities cavities)
@@ -75,12 +84,11 @@ bool Covers::may_replace(std::size_t t, std::size_t u) const {
   return faces_both(u) || dot(normal_[t], normal_[u]) > 0;
 }
 
-bool Covers::is_in_place_of(std::size_t t, std::size_t u) const {
+bool Covers::is_one_place(std::size_t t, std::size_t u, const Gap& between) const {
   // Windows lie on their walls in whole millimetres only.
   const double within =
       is_window(t) == is_window(u) ? same_place_ : std::max(same_place_, contact_);
-  const auto between = gap(t, u);
-  return between && between->is_within(within);
+  return between.is_within(within);
 }
 
 bool Covers::is_taken(std::size_t t, std::size_t u) const {
@@ -89,13 +97,14 @@ bool Covers::is_taken(std::size_t t, std::size_t u) const {
     return std::array{emits(x), is_window(x), faces_both(x), !is_bare_terrain(x)};
   };
   if (rank(t) == rank(u) ? u > t : rank(u) < rank(t)) return false;
-  return is_in_place_of(t, u);
+  const auto between = gap(t, u);
+  return between && is_one_place(t, u, *between);
 }
 
 bool Covers::is_behind(std::size_t t, std::size_t u) const {
   if (!is_opaque_[u] || faces_both(t) || are_of_one_body(t, u) || !may_replace(t, u)) return false;
   const auto between = gap(t, u);
-  if (!between || !between->is_within(looked_at_m()) || is_in_place_of(t, u)) return false;
+  if (!between || !between->is_within(looked_at_m()) || is_one_place(t, u, *between)) return false;
   return between->mean > 0 || (between->mean == 0 && t > u);
 }
 
@@ -132,17 +141,9 @@ std::optional<Covers::Gap> Covers::gap(std::size_t t, std::size_t u) const {
   const double facing = dot(normal_[a], normal_[b]);
   if (std::abs(facing) < least_cosine) return {};
   if (is_beyond_reach(a, b) || is_beyond_reach(b, a)) return {};
-  const auto of_a = corners(a), of_b = corners(b);
-  std::vector<Vec3> shared(of_b.begin(), of_b.end());
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 inward = cross(normal_[a], of_a[(k + 1) % 3] - of_a[k]);
-    shared = clipped(shared, [&](Vec3 p) { return dot(inward, p - of_a[k]); });
-  }
-  Vec3 twice{0, 0, 0};
-  for (std::size_t i = 2; i < shared.size(); ++i)
-    twice += cross(shared[i - 1] - shared[0], shared[i] - shared[0]);
+  const std::vector<Vec3> shared = overlap(corners(a), normal_[a], corners(b));
   const double smaller = std::min(norm(mesh_.area_vector2(a)), norm(mesh_.area_vector2(b)));
-  if (norm(twice) <= least_overlap * smaller) return {};
+  if (norm(area_vector2(shared)) <= least_overlap * smaller) return {};
   Gap of{1e300, -1e300, 0};
   for (const Vec3& p : shared) {
     const double before_a = distance(a, p);
@@ -268,12 +269,9 @@ void Covers::find_bodies() {
   for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
     if (const auto b = bodies_.triangle_body[t]; b >= 0)
       of_body_[next[static_cast<std::size_t>(b)]++] = t;
-  for (const Body& body : bodies_.bodies)
-    is_solid_.push_back(body.is_closed && !body.is_inside_out);
-  for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
-    const auto b = bodies_.triangle_body[t];
-    if (b >= 0 && !is_opaque_[t]) is_solid_[static_cast<std::size_t>(b)] = 0;
-  }
+  is_solid_ = opaque_bodies(bodies_, is_opaque_);
+  for (std::size_t b = 0; b < is_solid_.size(); ++b)
+    if (!bodies_.bodies[b].is_closed || bodies_.bodies[b].is_inside_out) is_solid_[b] = 0;
 }
 
 void Covers::find_land() {

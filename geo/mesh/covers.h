@@ -23,6 +23,10 @@ enum class Cavities { lit, dark };
 /// Surfaces this near to each other touch: contact_m, of small scenes less (geo/mesh/covered.h).
 double contact_of(const Mesh& mesh);
 
+/// Of each body 1 where all of its triangles are opaque, by a flag of each triangle.
+std::vector<std::uint8_t> opaque_bodies(const Bodies& bodies,
+                                        const std::vector<std::uint8_t>& is_opaque);
+
 /// Answers questions about single triangles and pairs of them, by their numbers in the mesh. Const,
 /// but counts the pairs that are visited.
 class Covers {
@@ -99,7 +103,6 @@ class Covers {
   bool seals(std::size_t t) const { return !seals_.empty() && seals_[t] != 0; }
   bool is_window(std::size_t t) const { return mesh_.triangle_surface[t] == Surface::window; }
   bool may_replace(std::size_t t, std::size_t u) const;
-  bool is_in_place_of(std::size_t t, std::size_t u) const;
   int crossing_above(std::size_t u, Vec3 p) const;
   bool reaches_before(std::size_t t, std::int32_t body) const;
   bool may_bury(std::size_t t, std::size_t u) const;
@@ -124,6 +127,7 @@ class Covers {
   /// Of `u` before `t`, along the normal of t; of t before u the same but for the sign. Nothing
   /// where they have next to nothing in common, are far from parallel, or too far off to matter.
   std::optional<Gap> gap(std::size_t t, std::size_t u) const;
+  bool is_one_place(std::size_t t, std::size_t u, const Gap& between) const;
   bool is_beyond_reach(std::size_t plane, std::size_t of) const;
   bool is_cut(std::size_t plane, std::size_t of) const;
   double plane_height(std::size_t t, double x, double y) const;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "geo/mesh/covers.h"
 #include "geo/mesh/edge_table.h"
 #include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/surface_kind.h"
@@ -89,21 +90,14 @@ std::vector<std::uint8_t> dark_backs(const Mesh& mesh, const Bodies& bodies,
   std::vector<std::uint8_t> backs(mesh.triangle_count(), 0);
   if (std::ranges::count(mesh.triangle_sides, Sides::two) == 0) return backs;
   const StandingOnLand on_land(mesh, bodies);
-  std::vector<std::uint8_t> are_dark;
-  for (std::size_t b = 0; b < bodies.bodies.size(); ++b) {
+  std::vector<std::uint8_t> are_dark = opaque_bodies(bodies, is_opaque);
+  for (std::size_t b = 0; b < are_dark.size(); ++b) {
     const Body& body = bodies.bodies[b];
-    are_dark.push_back(body.is_closed ? !body.is_inside_out : on_land.has(b));
+    if (body.is_closed ? body.is_inside_out : !on_land.has(b)) are_dark[b] = 0;
   }
-  const auto dark = [&](std::size_t t) -> std::uint8_t* {
-    const auto b = bodies.triangle_body[t];
-    return b < 0 ? nullptr : &are_dark[static_cast<std::size_t>(b)];
-  };
   for (std::size_t t = 0; t < backs.size(); ++t)
-    if (auto* const of_body = dark(t); of_body && !is_opaque[t]) *of_body = 0;
-  for (std::size_t t = 0; t < backs.size(); ++t) {
-    const auto* const of_body = dark(t);
-    backs[t] = mesh.triangle_sides[t] == Sides::two && of_body && *of_body != 0;
-  }
+    if (const auto b = bodies.triangle_body[t]; b >= 0 && mesh.triangle_sides[t] == Sides::two)
+      backs[t] = are_dark[static_cast<std::size_t>(b)];
   return backs;
 }
 

@@ -121,20 +121,15 @@ class FootFinder {
   /// beside its walls: land would climb to their sills.
   void take_out_panes() {
     constexpr double beside_m = 0.5, least_sill_m = 0.3;
-    std::vector<std::array<Vec3, 2>> house_edges;
-    std::vector<Box> boxes;
+    std::vector<Segment> of_houses;
     for (const Foot& foot : feet_)
-      for (const auto& edge : foot.edges)
-        if (is_house(foot.body)) {
-          house_edges.push_back(edge);
-          boxes.push_back(in_plan(box_around({edge[0], edge[1]})));
-        }
-    const BoxTree tree(std::move(boxes));
+      if (is_house(foot.body))
+        of_houses.insert(of_houses.end(), foot.edges.begin(), foot.edges.end());
+    const PlanLines houses(of_houses);
     const auto hangs = [&](Vec3 p) {
       bool has_house_below = false;
-      tree.visit_meeting(upright(widened(Box{p, p}, beside_m)), [&](std::size_t i) {
-        const NearestOnLine found = nearest_in_plan(house_edges[i], p.x, p.y);
-        has_house_below |= found.distance <= beside_m && found.z < p.z - least_sill_m;
+      houses.visit_within(p.x, p.y, beside_m, [&](const NearestOnLine& found) {
+        has_house_below |= found.z < p.z - least_sill_m;
       });
       return has_house_below;
     };

@@ -11,16 +11,17 @@
 
 namespace sunload {
 
-double overlap_m2(const std::array<Vec3, 3>& a, Vec3 normal, const std::array<Vec3, 3>& b) {
+std::vector<Vec3> overlap(const std::array<Vec3, 3>& a, Vec3 normal, const std::array<Vec3, 3>& b) {
   std::vector<Vec3> polygon(b.begin(), b.end());
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 inward = cross(normal, a[(k + 1) % 3] - a[k]);
     polygon = clipped(polygon, [&](Vec3 p) { return dot(inward, p - a[k]); });
   }
-  Vec3 twice{0, 0, 0};
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    twice = twice + cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
-  return norm(twice) / 2;
+  return polygon;
+}
+
+double overlap_m2(const std::array<Vec3, 3>& a, Vec3 normal, const std::array<Vec3, 3>& b) {
+  return norm(area_vector2(overlap(a, normal, b))) / 2;
 }
 
 namespace {

@@ -5,13 +5,15 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "geo/mesh/mesh.h"
 
 namespace sunload {
 
-/// Area [m2] of what two triangles of one plane have in common: b is cut by the edges of a.
-/// `normal`: unit, of a.
+/// What of triangle b lies before or behind a, whose unit normal that is: b cut by the edges of a.
+std::vector<Vec3> overlap(const std::array<Vec3, 3>& a, Vec3 normal, const std::array<Vec3, 3>& b);
+/// Its area [m2].
 double overlap_m2(const std::array<Vec3, 3>& a, Vec3 normal, const std::array<Vec3, 3>& b);
 
 /// Triangles with patches that lie in the place of others and face the same way: each of the two

@@ -19,10 +19,24 @@ namespace sunload {
 
 namespace {
 
+bool is_empty(const Box& box) { return box.low.x > box.high.x; }
+
 void include_all(Box& box, const Box& other) {
-  if (other.low.x > other.high.x) return;  // empty
+  if (is_empty(other)) return;
   include(box, other.low);
   include(box, other.high);
+}
+
+/// Of all bodies; empty ones of land.
+std::vector<Box> boxes_but_of_land(const BuiltScene& prepared) {
+  std::vector<Box> boxes;
+  for (const Body& body : prepared.bodies.bodies) boxes.push_back(body.box);
+  const Mesh& mesh = prepared.scene.mesh;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (const auto b = prepared.bodies.triangle_body[t];
+        b >= 0 && mesh.triangle_surface[t] == Surface::ground)
+      boxes[static_cast<std::size_t>(b)] = Box{};
+  return boxes;
 }
 
 Vec3 centre_of_triangle(const Mesh& mesh, std::size_t t) {
@@ -91,31 +105,26 @@ void warn_of_colours(const OfKinds& shown, BuiltScene& built) {
 
 std::string lone_piece_warning(const Study& study, const BuiltScene& prepared) {
   constexpr double far_off = 10, little_area = 0.01;
-  const Mesh& mesh = prepared.scene.mesh;
   const auto& bodies = prepared.bodies.bodies;
-  std::vector<std::uint8_t> is_land(bodies.size(), 0);
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    if (const auto b = prepared.bodies.triangle_body[t];
-        b >= 0 && mesh.triangle_surface[t] == Surface::ground)
-      is_land[static_cast<std::size_t>(b)] = 1;
-  double area = 0;
+  const std::vector<Box> boxes = boxes_but_of_land(prepared);
   std::vector<Box> from(bodies.size() + 1);  // all from a body on
+  double area = 0;
   for (std::size_t b = bodies.size(); b > 0; --b) {
     from[b - 1] = from[b];
-    if (is_land[b - 1]) continue;
-    include_all(from[b - 1], bodies[b - 1].box);
-    area += bodies[b - 1].area;
+    include_all(from[b - 1], boxes[b - 1]);
+    if (!is_empty(boxes[b - 1])) area += bodies[b - 1].area;
   }
+  const double all_m = norm(from[0].high - from[0].low);
   Box before;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (is_land[b]) continue;
     Box rest = before;
     include_all(rest, from[b + 1]);
-    include_all(before, bodies[b].box);
-    const double all_m = norm(from[0].high - from[0].low), rest_m = norm(rest.high - rest.low);
-    if (rest.low.x > rest.high.x || bodies[b].area > little_area * area) continue;
+    include_all(before, boxes[b]);
+    if (is_empty(boxes[b]) || is_empty(rest) || bodies[b].area > little_area * area) continue;
+    const double rest_m = norm(rest.high - rest.low);
     if (all_m <= far_off * rest_m) continue;
-    const Vec3 at = mesh.origin + centre_of(bodies[b].box);
+    const Mesh& mesh = prepared.scene.mesh;
+    const Vec3 at = mesh.origin + centre_of(boxes[b]);
     return message(
         study.scene.where,
         fmt::format("a piece of '{}' lies at ({:.6g}, {:.6g}, {:.6g}), {:.4g} m away from all "

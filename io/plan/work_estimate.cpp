@@ -306,7 +306,8 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
   const auto batch = static_cast<double>(std::min(plan.batch_suns(), plan.intervals()));
   const auto batches = static_cast<double>(plan.batches());
   const bool by_matrix = s.transport == Transport::matrix;
-  const double of_patches = static_cast<double>(patches) * counts.mean_lines();
+  const auto own = static_cast<double>(patches);  // without sensors, which have a pace of their own
+  const double of_patches = own * counts.mean_lines();
   const double lines = n * counts.mean_lines(), links = by_matrix ? n * n : of_patches * s.bounces;
   const double of_realizations = double_bytes * s.realizations;
   const bool of_instants = plan.study.output.standard_error == StandardErrors::instants;
@@ -411,7 +412,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       prepared_bytes(plan, static_cast<double>(patches), counts.mean_lines(), guided, node_bytes);
   WorkSeconds core;  // of one core
   core.lines =
-      seasons * tracing_seconds(plan, static_cast<double>(patches), of_patches, guided) +
+      seasons * tracing_seconds(plan, own, of_patches, guided) +
       static_cast<double>(work.samples) * s_per_sample +  // a shot meets surfaces as a line does
       (plan.study.mesh.oracle == Oracle::none ? 0
                                               : refinement_rays(plan, n, lit) * s_per_direct_ray);
@@ -420,9 +421,7 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
                 luminaire_rays * s_per_luminaire_ray;
   const double sent_on =
       shining / std::max(suns, 1.0) * static_cast<double>(plan.light.suns_of_mirrors());
-  core.mirror =
-      mirrors ? mirror_seconds(plan, static_cast<double>(patches), sent_on, counts.direct_samples)
-              : 0;
+  core.mirror = mirrors ? mirror_seconds(plan, own, sent_on, counts.direct_samples) : 0;
   core.sensors =
       sensor_seconds(plan, counts.mean_lines(), lit, rays_of_sensors, counts.direct_samples);
   if (by_matrix)

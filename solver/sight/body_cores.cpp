@@ -10,6 +10,7 @@
 
 #include "geo/base/units.h"
 #include "geo/mesh/box_tree.h"
+#include "geo/mesh/clip.h"
 #include "solver/base/spherical_triangle.h"
 #include "solver/base/threads.h"
 #include "solver/sight/convex_solid.h"
@@ -38,12 +39,7 @@ struct Body {
   int outward = 1;                       ///< -1: normals look inward
 };
 
-double area_of(const ConvexFace& face) {
-  Vec3 sum{0, 0, 0};
-  for (std::size_t k = 2; k < face.corners.size(); ++k)
-    sum += cross(face.corners[k - 1] - face.corners[0], face.corners[k] - face.corners[0]);
-  return norm(sum);
-}
+double area_of(const ConvexFace& face) { return norm(area_vector2(face.corners)) / 2; }
 
 Vec3 middle_of(const ConvexFace& face) {
   Vec3 sum{0, 0, 0};

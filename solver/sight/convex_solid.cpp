@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geo/base/check.h"
+#include "geo/mesh/clip.h"
 
 namespace sunload {
 
@@ -15,25 +16,9 @@ namespace {
 /// Of the square of the longest extent: less is a line, but for rounding.
 constexpr double line_share = 1e-9;
 
-/// Leaves what of a convex polygon does not lie before a plane (Sutherland & Hodgman 1974).
+/// Leaves what of a convex polygon does not lie before a plane.
 void cut_polygon(std::vector<Vec3>& polygon, const HalfSpace& away) {
-  std::vector<Vec3> kept;
-  for (std::size_t q = 0; q < polygon.size(); ++q) {
-    const Vec3 a = polygon[(q + polygon.size() - 1) % polygon.size()], b = polygon[q];
-    const double above_a = away.above(a), above_b = away.above(b);
-    if ((above_a > 0) != (above_b > 0))
-      kept.push_back(a + (b - a) * (above_a / (above_a - above_b)));
-    if (above_b <= 0) kept.push_back(b);
-  }
-  polygon = std::move(kept);
-}
-
-/// Twice, along the normal.
-Vec3 area_of(const std::vector<Vec3>& polygon) {
-  Vec3 sum{0, 0, 0};
-  for (std::size_t k = 2; k < polygon.size(); ++k)
-    sum += cross(polygon[k - 1] - polygon[0], polygon[k] - polygon[0]);
-  return sum;
+  polygon = clipped(polygon, [&](Vec3 p) { return -away.above(p); });
 }
 
 }  // namespace
@@ -60,7 +45,7 @@ double ConvexSolid::volume() const {
   const Vec3 from = sides_.front().corners.front();
   double volume = 0;
   for (const Side& side : sides_)
-    volume -= side.beyond.above(from) * norm(area_of(side.corners)) / 6;
+    volume -= side.beyond.above(from) * norm(area_vector2(side.corners)) / 6;
   return volume;
 }
 
@@ -83,7 +68,8 @@ void ConvexSolid::cut(const HalfSpace& away) {
   }
   sides_.push_back(std::move(section));
   const double least = line_share * reach * reach;
-  std::erase_if(sides_, [&](const Side& side) { return norm(area_of(side.corners)) <= least; });
+  std::erase_if(sides_,
+                [&](const Side& side) { return norm(area_vector2(side.corners)) <= least; });
 }
 
 std::vector<Vec3> ConvexSolid::part_within(std::span<const Vec3> polygon, double depth_m) const {

@@ -33,7 +33,7 @@ inline std::span<const ViewCorner> convex_hull(std::span<const ViewCorner> point
   };
   for (std::size_t i = 0; i < n; ++i) add(room[i], 1);
   const std::size_t lower = size;
-  for (std::size_t i = n - 1; i > 0; --i) add(room[i - 1], lower);
+  for (std::size_t i = n; i > 1; --i) add(room[i - 2], lower);
   return {hull, size > 0 ? size - 1 : 0};  // the first has come again
 }
 
