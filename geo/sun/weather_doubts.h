@@ -18,6 +18,9 @@ struct WeatherDoubt {
   int line = 0;                ///< of the first such record …
   double is = 0, at_most = 0;  ///< … and its two values [W m-2]
 };
+/// From this elevation of the sun on the darkest clouds let more through than instruments round off
+/// [degrees].
+inline constexpr double surely_light_deg = 10;
 /// Records whose quantities contradict each other, or the sun, while nothing else was measured
 /// that could tell (where all three are, `closure` does).
 struct WeatherDoubts {
@@ -27,6 +30,7 @@ struct WeatherDoubts {
   WeatherDoubt dhi_above_ghi;
   WeatherDoubt beam_above_ghi;  ///< DNI·sin(elevation), of records without DHI
   WeatherDoubt dni;             ///< measured, above that of the sun outside of the atmosphere
+  WeatherDoubt no_light;        ///< all that is measured is 0, while the sun stands high
 };
 /// `weather`: as it was read; `path` has one interval for each record.
 WeatherDoubts doubts_of(const std::vector<DatedWeather>& weather, const SunPath& path);

@@ -44,8 +44,8 @@ void row(Verdict verdict, const std::string& what, const std::string& words) {
 }
 
 /// What a command prints; nothing where it fails.
-std::string output_of(const char* command) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command, "r"), pclose);
+std::string output_of(const std::string& command) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   std::string text;
   std::array<char, 256> part{};
   while (pipe && std::fgets(part.data(), static_cast<int>(part.size()), pipe.get()) != nullptr)
@@ -102,15 +102,17 @@ void tell_company() {
   row(data.empty() ? Verdict::wanting : Verdict::good, "examples, plots",
       data.empty() ? "not found: `init --example` and plots need share/sunload beside the program"
                    : data);
-  const std::string python = output_of(
-      "/usr/bin/env python3 -c 'import sys, numpy, h5py, xarray, matplotlib; "
-      "print(sys.executable, \"%d.%d\" % sys.version_info[:2])' 2>/dev/null || /usr/bin/python3 -c "
-      "'import sys, numpy, h5py, xarray, matplotlib; print(sys.executable, \"%d.%d\" % "
-      "sys.version_info[:2])' 2>/dev/null");
+  const std::string probe =
+      " -c 'import sys, numpy, h5py, xarray, h5netcdf, pandas, matplotlib; "
+      "print(sys.executable, \"%d.%d\" % sys.version_info[:2])' 2>/dev/null";
+  const std::string python =
+      output_of("/usr/bin/env python3" + probe + " || /usr/bin/python3" + probe);
   row(python.empty() ? Verdict::wanting : Verdict::good, "Python",
-      python.empty() ? "none with numpy, h5py, xarray and matplotlib: plots and io/python want "
-                       "python3-h5py, python3-xarray, python3-matplotlib"
-                     : python + " with numpy, h5py, xarray, matplotlib");
+      python.empty()
+          ? "none with numpy, h5py, xarray, h5netcdf, pandas and matplotlib: plots and io/python "
+            "want python3-h5py, python3-xarray, python3-h5netcdf, python3-pandas, "
+            "python3-matplotlib"
+          : python + " with numpy, h5py, xarray, h5netcdf, pandas, matplotlib");
 }
 
 /// A folder that goes when it is done with.

@@ -105,6 +105,11 @@ WeatherSayings doubt_words(const WeatherDoubts& doubts, const std::string& path)
         "weather: {} records have DNI above the sun's own outside of the atmosphere, first {}:{} "
         "with {:.0f} of at most {:.0f} W/m2; they are taken as they are",
         doubts.dni.records, path, doubts.dni.line, doubts.dni.is, doubts.dni.at_most));
+  if (doubts.no_light.records > 0)
+    sayings.warnings.push_back(fmt::format(
+        "weather: {} records have no light at all with the sun above {:g} degrees, first {}:{}; "
+        "they are taken as they are: are missing values written as 0 there, and {}",
+        doubts.no_light.records, surely_light_deg, path, doubts.no_light.line, of_time));
   return sayings;
 }
 

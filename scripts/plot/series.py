@@ -20,6 +20,8 @@ MOST_PANELS = 8
 # Longer periods are drawn by the day: single hours could not be seen.
 MOST_DAYS_OF_INTERVALS = 14
 DAY_S = 86400
+# Days further apart are not joined by a line: nothing is known of those between.
+MOST_DAYS_JOINED = 7
 
 
 def runs_of_time(bounds):
@@ -38,6 +40,12 @@ def by_day(result, values, units):
     last = np.append(starts[1:], len(days)) - 1
     scale = 1000 if units in drawing.TIME_SUMS else np.add.reduceat(hours, starts)[:, None]
     return np.stack([bounds[starts, 0], bounds[last, 1]], axis=1), sums / scale
+
+
+def torn_apart(days, values):
+    """The same with an empty point wherever days lie so far apart that no line joins them."""
+    gaps = np.flatnonzero(np.diff(days) > MOST_DAYS_JOINED) + 1
+    return np.insert(days, gaps, np.nan), np.insert(values.astype(float), gaps, np.nan)
 
 
 def stairs(axes, edges, values, **style):
@@ -88,7 +96,8 @@ def draw_piece(axes, result, targets, bounds, values, is_daily, most_ticks):
         style = {"color": drawing.LINE_COLOURS[k % 8], "linestyle": drawing.LINE_STYLES[k // 8 % 4],
                  "linewidth": 1.4, "label": target.label}
         if is_daily:   # days without intervals in between: points joined, no steps
-            axes.plot(bounds.mean(axis=1) / DAY_S, values[:, k], marker="." if len(bounds) < 60 else "", **style)
+            days, of_days = torn_apart(bounds.mean(axis=1) / DAY_S, values[:, k])
+            axes.plot(days, of_days, marker="." if len(bounds) < 60 else "", **style)
         else:
             stairs(axes, edges, values[:, k], **style)
     axes.grid(True)

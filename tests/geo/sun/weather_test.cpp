@@ -270,6 +270,25 @@ TEST(WeatherDoubts, CountWhatContradictsGlobalIrradianceAndTheSun) {
             0u);
 }
 
+TEST(WeatherDoubts, CountHoursThatAreDarkBelowAHighSun) {
+  auto weather = dated(hours(2001, 6, 21, 24, {{}, {}, 0}), 2001, 0);
+  const auto path = path_of(weather);
+  const auto high = std::count_if(path.begin(), path.end(), [](const SunInterval& when) {
+    return when.sun.elevation_deg > surely_light_deg;
+  });
+  ASSERT_GT(high, 10);
+  EXPECT_EQ(doubts_of(weather, path).no_light.records, static_cast<std::size_t>(high));
+  for (auto& w : weather) w.values = {0, 0, {}};
+  EXPECT_EQ(doubts_of(weather, path).no_light.records, static_cast<std::size_t>(high));
+  // Clouds, or nothing measured.
+  for (auto& w : weather) w.values = {0, {}, {}};
+  EXPECT_EQ(doubts_of(weather, path).no_light.records, 0u);
+  for (auto& w : weather) w.values = {0, 3, 3};
+  EXPECT_EQ(doubts_of(weather, path).no_light.records, 0u);
+  for (auto& w : weather) w.values = {};
+  EXPECT_EQ(doubts_of(weather, path).no_light.records, 0u);
+}
+
 /// Bit by bit what a file has that lacks the column throughout, at night and at sunrise, too.
 TEST(SunnyWeather, RecordsAreCompletedAsWholeFilesAre) {
   auto weather = dated(hours(2001, 6, 21, 24, {}), 2001, 0);

@@ -532,6 +532,12 @@ TEST(WeatherLight, QuantitiesThatContradictEachOtherAreToldWithTheirAmount) {
   EXPECT_TRUE(tells(little.weather, "24 records have DHI above GHI: 2.4 Wh/m2 (0.05 % of GHI)"));
 }
 
+TEST(WeatherLight, HoursWithoutAnyLightBelowAHighSunAreWarnedOf) {
+  const auto series = series_of_day("dni,dhi", "0,0");
+  EXPECT_TRUE(tells(series.notes, "records have no light at all with the sun above 10 degrees"));
+  EXPECT_FALSE(tells(series_of_day("dni,dhi", "0,1").notes, "no light at all"));
+}
+
 TEST(WeatherLight, DniAboveTheSunsOwnIsWarnedOf) {
   const auto series = series_of_day("dni,dhi", "1500,40");
   EXPECT_EQ(series.intervals[12].mean.dni, 1500);
