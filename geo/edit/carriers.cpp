@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geo/edit/carriers.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
+
+#include "geo/base/units.h"
+#include "geo/mesh/slope.h"
 
 namespace sunload {
 
@@ -37,16 +42,109 @@ std::optional<std::size_t> nearest_in_plan(const std::vector<std::size_t>& bodie
   return nearest;
 }
 
+/// A part of a building: the lower edges of its walls, and its faces that lean.
+struct BuildingPart {
+  std::size_t place;
+  std::vector<LooseFace> leaning;
+  struct LowerEdge {
+    Vec3 middle, across;  ///< away from the wall, level, of unit length
+    double length_m;
+  };
+  std::vector<LowerEdge> lower;
+};
+
+BuildingPart building_part(const PolygonModel& model, std::size_t place) {
+  const double steepest = std::cos(radians(upright_slope_deg));
+  BuildingPart part{place, {}, {}};
+  for (LooseFace& face : faces_of(model, make_id<ObjectId>(place))) {
+    const Vec3 area = area_vector2(face);
+    const double size = norm(area);
+    if (size <= 0) continue;
+    if (std::abs(area.z) > steepest * size) {
+      part.leaning.push_back(std::move(face));
+      continue;
+    }
+    const auto& ring = face.rings.front();
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec3 a = ring[i], way = ring[(i + 1) % ring.size()] - a;
+      const double length = std::hypot(way.x, way.y);
+      constexpr double shortest_m = 1e-3;
+      if (length < shortest_m || cross(area, way).z <= 0) continue;  // the wall is not above it
+      part.lower.push_back({a + way * 0.5, Vec3{way.y, -way.x, 0} / length, length});
+    }
+  }
+  // Of walls one above the other the lower edges of the upper ones are none of the part's.
+  const auto all = part.lower;
+  std::erase_if(part.lower, [&](const auto& edge) {
+    return std::ranges::any_of(all, [&](const auto& other) {
+      constexpr double beside_m = 0.05;
+      return other.middle.z < edge.middle.z - beside_m &&
+             std::hypot(other.middle.x - edge.middle.x, other.middle.y - edge.middle.y) < beside_m;
+    });
+  });
+  return part;
+}
+
+/// Whether a face that leans is just below a place, or at it.
+bool supports(const LooseFace& face, Vec3 p) {
+  constexpr double touching_m = 0.3;
+  if (!holds_in_plan(face.rings, plan_point(p), plan_point)) return false;
+  const Vec3 area = area_vector2(face), o = face.rings.front().front();
+  const double z = o.z - (area.x * (p.x - o.x) + area.y * (p.y - o.y)) / area.z;
+  return std::abs(z - p.z) < touching_m;
+}
+
+/// Share of the lower edges of `upper` that stand on `lower`, above its foot.
+double share_on(const BuildingPart& upper, const BuildingPart& lower, double foot_m) {
+  // A roof ends at what stands on it, or goes on below.
+  constexpr double beside_m = 0.1, above_foot_m = 0.5;
+  double on = 0, all = 0;
+  for (const auto& edge : upper.lower) {
+    all += edge.length_m;
+    if (edge.middle.z < foot_m + above_foot_m) continue;
+    const bool is_on = std::ranges::any_of(lower.leaning, [&](const LooseFace& face) {
+      return supports(face, edge.middle + edge.across * beside_m) ||
+             supports(face, edge.middle - edge.across * beside_m);
+    });
+    if (is_on) on += edge.length_m;
+  }
+  return all > 0 ? on / all : 0;
+}
+
+/// Of parts of one building those that stand on another one, the lowest first.
+void find_stacked(const PolygonModel& model, std::vector<std::size_t> places,
+                  const std::vector<ObjectExtent>& extents,
+                  std::vector<std::optional<std::size_t>>& carriers) {
+  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+    return extents[a].box.low.z < extents[b].box.low.z;
+  });
+  std::vector<BuildingPart> parts;
+  parts.reserve(places.size());
+  for (const std::size_t place : places) parts.push_back(building_part(model, place));
+  for (std::size_t u = 1; u < parts.size(); ++u) {
+    double most = 0.5;
+    for (std::size_t l = 0; l < u; ++l) {
+      const std::size_t lower = parts[l].place;
+      const double share = share_on(parts[u], parts[l], extents[lower].box.low.z);
+      if (share <= most) continue;
+      most = share;
+      carriers[parts[u].place] = carriers[lower] ? carriers[lower] : lower;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::optional<std::size_t>> carriers_of(const FamilyTree& tree,
-                                                    const std::vector<ObjectExtent>& extents,
+                                                    const PolygonModel& model,
                                                     const ChosenObjects& chosen) {
+  const auto extents = extents_of(model);
   const auto tops = tops_of(tree);
   std::map<std::size_t, std::vector<std::size_t>> parts;  // by their topmost
   for (std::size_t o = 0; o < chosen.size(); ++o)
     if (chosen[o] != 0 && is_part_of_body(tree.kind(o))) parts[tops[o]].push_back(o);
   std::vector<std::optional<std::size_t>> carriers(chosen.size());
+  for (const auto& [top, of_building] : parts) find_stacked(model, of_building, extents, carriers);
   for (const std::size_t place : tree.owners_first()) {
     if (place >= chosen.size() || chosen[place] == 0 || is_part_of_body(tree.kind(place))) continue;
     auto owner = body_owner(tree, place);
@@ -55,9 +153,11 @@ std::vector<std::optional<std::size_t>> carriers_of(const FamilyTree& tree,
       owner = body_owner(tree, *owner);
     if (owner)
       carriers[place] = carriers[*owner] ? carriers[*owner] : owner;
-    else if (const auto found = parts.find(tops[place]); found != parts.end())
-      carriers[place] =
+    else if (const auto found = parts.find(tops[place]); found != parts.end()) {
+      const auto part =
           nearest_in_plan(found->second, plan_point(extents[place].middle()), extents);
+      carriers[place] = part && carriers[*part] ? carriers[*part] : part;
+    }
   }
   return carriers;
 }

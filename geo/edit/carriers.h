@@ -12,11 +12,13 @@
 
 namespace sunload {
 
-/// Of each chosen object the chosen body that it sits on. Parts of buildings are bodies, and what
-/// belongs to nothing that is chosen: they have none. What belongs to a building without surfaces
-/// sits on the nearest of its parts in plan; of several at one place on the smallest.
+/// Of each chosen object the chosen body that it sits on. What belongs to a building without
+/// surfaces sits on the nearest of its parts in plan; of several at one place on the smallest.
+/// Parts of buildings are bodies, as is what belongs to nothing that is chosen: these have none,
+/// but for parts that stand on the roof of another chosen part of their building (towers of lifts,
+/// dormers), by more than half of the lower edges of their walls.
 std::vector<std::optional<std::size_t>> carriers_of(const FamilyTree& tree,
-                                                    const std::vector<ObjectExtent>& extents,
+                                                    const PolygonModel& model,
                                                     const ChosenObjects& chosen);
 
 }  // namespace sunload

@@ -249,8 +249,8 @@ RaisedObject raise_object(PolygonModel& model, ObjectId object, double by_m,
     if (is_cut(*roof->face, raised.level_m))
       return refuse("has a roof that from_m cuts", "roofs are lifted whole");
   if (!has_room(faces, levels, raised.level_m, by_m))
-    return refuse("is not high enough to be lowered so far",
-                  "what is lifted would come below what stays");
+    return refuse("is not high enough to be lowered so far where it is cut",
+                  "what is lifted would come below what stays, such as windows there");
   for (const auto& face : faces)
     if (face.facts.surface == Surface::window && is_cut(face, raised.level_m)) ++raised.windows_cut;
   const RaisedOutline outline = outline_of(faces, leaning, roofs, raised.level_m, by_m);

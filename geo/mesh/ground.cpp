@@ -13,6 +13,7 @@
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/land.h"
 #include "geo/mesh/plan_triangles.h"
+#include "geo/mesh/rim_land.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -108,15 +109,23 @@ class GroundMaker {
   void find_lines() {
     if (!is_plate()) find_rims();
     const PlanTriangles terrain(mesh_, terrain_);
+    const RimLand between_rims(lines_.rims);
+    const auto is_elsewhere = [&](Vec3 foot) {
+      if (is_plate()) return false;
+      if (terrain.covers(foot)) return true;
+      // In a hole that the terrain has for the house: below its rim the foot is buried.
+      const auto land = between_rims.height_at(foot.x, foot.y);
+      return land && foot.z < *land - land_snap_m;
+    };
     for (const Foot& foot : feet_) {
       if (!stands(foot)) continue;
       for (const auto* edges : {&foot.edges, &foot.rims})
-        for (const Segment& edge : *edges) add_line(edge, foot.body, terrain);
+        for (const Segment& edge : *edges)
+          if (!is_elsewhere((edge[0] + edge[1]) / 2)) add_line(edge, foot.body);
     }
   }
 
-  void add_line(Segment edge, std::int32_t body, const PlanTriangles& terrain) {
-    if (!is_plate() && terrain.covers((edge[0] + edge[1]) / 2)) return;
+  void add_line(Segment edge, std::int32_t body) {
     if (level_z_)
       for (Vec3& end : edge) end.z = *level_z_;
     lines_.feet.push_back(edge);

@@ -68,11 +68,12 @@ struct PolygonModel {
   Families families;
   std::vector<FileMaterial> materials;
 
-  std::string source;              ///< file name for messages
-  std::vector<std::string> files;  ///< that were read for it, with those that they draw in
-  std::string crs;                 ///< e.g. "EPSG:28992", empty if the file names none
-  bool is_city_format = false;     ///< gets a ground plate by default
-  std::vector<std::string> notes;  ///< one line each: what was counted, tolerated or left out
+  std::string source;                 ///< file name for messages
+  std::vector<std::string> files;     ///< that were read for it, with those that they draw in
+  std::string crs;                    ///< e.g. "EPSG:28992", empty if the file names none
+  bool is_city_format = false;        ///< gets a ground plate by default
+  std::vector<std::string> notes;     ///< one line each: what was counted, tolerated or left out
+  std::vector<std::string> warnings;  ///< likewise: what is lost that was meant to be there
 
   std::size_t polygon_count() const { return facts.size(); }
   /// Appends a polygon; `rings` hold vertex indices, outer ring first.

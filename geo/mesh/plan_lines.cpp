@@ -7,16 +7,12 @@
 
 namespace sunload {
 
-namespace {
-
-BoxTree tree_of(const std::vector<Segment>& lines) {
+BoxTree tree_in_plan(const std::vector<Segment>& lines) {
   std::vector<Box> boxes;
   boxes.reserve(lines.size());
   for (const auto& [a, b] : lines) boxes.push_back(in_plan(box_around({a, b})));
   return BoxTree(std::move(boxes));
 }
-
-}  // namespace
 
 NearestOnLine nearest_in_plan(const Segment& line, double x, double y) {
   const auto& [a, b] = line;
@@ -26,7 +22,8 @@ NearestOnLine nearest_in_plan(const Segment& line, double x, double y) {
   return {std::hypot(x - a.x - s * ex, y - a.y - s * ey), s, a.z + s * (b.z - a.z)};
 }
 
-PlanLines::PlanLines(const std::vector<Segment>& lines) : lines_(lines), tree_(tree_of(lines)) {}
+PlanLines::PlanLines(const std::vector<Segment>& lines)
+    : lines_(lines), tree_(tree_in_plan(lines)) {}
 
 bool PlanLines::any_within(double x, double y, double distance_m) const {
   bool any = false;

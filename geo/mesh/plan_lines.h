@@ -16,6 +16,9 @@ struct NearestOnLine {
 };
 NearestOnLine nearest_in_plan(const Segment& line, double x, double y);
 
+/// Of their boxes in plan.
+BoxTree tree_in_plan(const std::vector<Segment>& lines);
+
 /// Finds lines by a tree of their boxes in plan.
 class PlanLines {
  public:

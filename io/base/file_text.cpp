@@ -93,9 +93,9 @@ std::string lower_extension(const std::string& path) {
   return lower_case(std::filesystem::path(path).extension().string());
 }
 
-std::vector<std::string> NoteCounter::lines() const {
+std::vector<std::string> NoteCounter::lines_of(const Counts& counts) {
   std::vector<std::string> notes;
-  for (const auto& [what, times] : counts_) {
+  for (const auto& [what, times] : counts) {
     notes.push_back(times == 0 ? what : std::to_string(times) + " " + what);
   }
   return notes;

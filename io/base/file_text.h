@@ -43,10 +43,18 @@ class NoteCounter {
   }
   /// A note without a number, kept once.
   void say(const std::string& what) { counts_.try_emplace(what, 0); }
-  std::vector<std::string> lines() const;
+  /// What the user must know: something is lost that was meant to be there.
+  void warn(const std::string& what, std::size_t times) {
+    if (times > 0) warnings_[what] += times;
+  }
+  std::vector<std::string> lines() const { return lines_of(counts_); }
+  std::vector<std::string> warnings() const { return lines_of(warnings_); }
 
  private:
-  std::map<std::string, std::size_t> counts_;
+  using Counts = std::map<std::string, std::size_t>;
+  static std::vector<std::string> lines_of(const Counts& counts);
+
+  Counts counts_, warnings_;
 };
 
 }  // namespace sunload

@@ -185,6 +185,7 @@ int write_edited(const BuiltinOptions& options) {
   PolygonModel model = edited(read_models(study), study);
   expect_scene_not_read(options.path, model.files);
   if (!study.site.crs.empty()) model.crs = study.site.crs;
+  tell_warnings(model.warnings);
   for (const auto& note : model.notes) tell("note: " + note);
   write_scene(model, options.path, study.scene.repair, crs_unit_m(study.scene, model.crs));
   return exit_code::done;

@@ -342,8 +342,12 @@ void export_geopackage(const ResultReader& result, const ExportRules& rules,
     if (!file) fail(target.path);
     const auto crs = owned(gdal::OSRNewSpatialReference(nullptr), gdal::OSRDestroySpatialReference);
     const auto name = result.text_attribute("crs");
-    const bool has_crs =
-        !name.empty() && gdal::OSRSetFromUserInput(crs.get(), name.c_str()) == OGRERR_NONE;
+    const auto is_set = [&](const char* text) {
+      return gdal::OSRSetFromUserInput(crs.get(), text) == OGRERR_NONE;
+    };
+    // Without any, readers would take metres for degrees.
+    constexpr auto* undefined = R"(LOCAL_CS["Undefined Cartesian SRS"])";
+    const bool has_crs = (!name.empty() && is_set(name.c_str())) || is_set(undefined);
     gdal::OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
     // One transaction: a row for itself would be flushed for itself.
     gdal::GDALDatasetStartTransaction(file.get(), FALSE);

@@ -252,6 +252,7 @@ BuiltScene scene_before_materials(const Study& study) {
   if (is_empty) built.site = resolve_site(study, model, built);
   built.files = model.files;
   built.notes = model.notes;
+  built.warnings.insert(built.warnings.end(), model.warnings.begin(), model.warnings.end());
   built.crs = study.site.crs.empty() ? model.crs : study.site.crs;
   built.crs_unit_m = crs_unit_m(study.scene, built.crs);
   PreparedMesh prepared = prepare(model, prepare_rules(study, model, built.site));

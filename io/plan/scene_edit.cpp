@@ -158,7 +158,7 @@ class SceneEditor {
   void apply(const RaiseEdit& raise) {
     ChosenObjects all = chosen();
     if (raise.by_m == 0) return tell("raises by 0 m", names_of(all));
-    const auto carriers = carriers_of(tree(), extents_of(model_), all);
+    const auto carriers = carriers_of(tree(), model_, all);
     ChosenObjects bodies = all;
     for (std::size_t o = 0; o < all.size(); ++o)
       if (carriers[o]) bodies[o] = 0;

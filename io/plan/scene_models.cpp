@@ -88,6 +88,7 @@ void append(PolygonModel& into, const PolygonModel& from) {
   add_families(into, from.families, static_cast<std::size_t>(object_base));
   into.materials.insert(into.materials.end(), from.materials.begin(), from.materials.end());
   into.notes.insert(into.notes.end(), from.notes.begin(), from.notes.end());
+  into.warnings.insert(into.warnings.end(), from.warnings.begin(), from.warnings.end());
   into.files.insert(into.files.end(), from.files.begin(), from.files.end());
   into.is_city_format = into.is_city_format || from.is_city_format;
   if (into.crs.empty()) into.crs = from.crs;

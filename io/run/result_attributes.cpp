@@ -206,7 +206,9 @@ void add_accuracy(Attributes& a, const MergedResult& result) {
                     {{"lines_per_patch", std::llround(counts[0])},
                      {"direct_samples", static_cast<std::int64_t>(counts[1])},
                      {"bounces", static_cast<std::int64_t>(totals[batch_array::bounces][0])}});
-  a.numbers.emplace_back("reuse_bias_share", reuse_bias(totals, result.geometry, R));
+  // Few solutions are scaled to the sums of realizations, and differ from these by nothing.
+  if (!totals.has(batch_array::reduction))
+    a.numbers.emplace_back("reuse_bias_share", reuse_bias(totals, result.geometry, R));
   a.numbers.emplace_back(unit_names("residual_reuse_bias_kwh", study.light.quantity),
                          residual_reuse_bias_kwh(totals, R));
   if (totals.has(batch_array::reduction)) {

@@ -34,13 +34,19 @@ void expect_room_for(const WorkEstimate& work, PatchesAre patches, const std::st
     if (!problem.empty()) throw MachineError(problem);
 }
 
-InputError of_another_state(const WorkFolder& folder, const ResultState& is, const char* hint) {
+InputError of_another_state(const WorkFolder& folder, const ResultState& is, const std::string& isa,
+                            const char* hint) {
   const ResultReader result(folder.result());
   if (result.number_attribute("numerics_version") != numerics_version)
     return {{folder.result()},
             "is the result of another version of the program",
             "by " + result.text_attribute("source") + ", whose numbers are others",
             hint};
+  if (const std::string by = result.text_attribute("isa"); by != isa)
+    return {{folder.result()},
+            "is the result of another instruction set",
+            "computed with " + by + ", this processor would use " + isa,
+            "write solver: {isa: " + by + "} into the study to accept it; " + hint};
   const ResultState wanted = folder.wanted_state();
   const char* why =
       is.content_hash != wanted.content_hash
@@ -93,19 +99,26 @@ void VariantJob::expect_may_run() const {
 }
 
 void VariantJob::expect_may_merge() const {
-  if (folder_.batches_not_there().empty()) refuse_other_state("use --overwrite to replace it");
+  if (folder_.batches_not_there().empty())
+    return refuse_other_state("use --overwrite to replace it");
+  if (is_merged()) return;
+  if (folder_.state() && ResultReader(folder_.result()).text_attribute("isa") != plan_.isa)
+    return refuse_other_state("use --overwrite to replace it");
+  if (const auto other = batches_of_other_isa())
+    throw InputError({other->folder}, "holds batches of this study computed with " + other->isa,
+                     "of " + plan_.isa + ", which this processor uses, some are missing",
+                     "write solver: {isa: " + other->isa + "} into the study to merge those");
 }
 
 /// Of the study as it was, or as somebody has changed it meanwhile.
 void VariantJob::refuse_other_state(const char* hint) const {
   if (is_overwritten()) return;
   const auto state = folder_.state();
-  if (state && state != folder_.wanted_state()) throw of_another_state(folder_, *state, hint);
+  if (state && state != folder_.wanted_state())
+    throw of_another_state(folder_, *state, plan_.isa, hint);
 }
 
-/// Shards on machines of different instruction sets would not fit together.
-void VariantJob::refuse_other_isa() const {
-  if (work_.options.shard.is_whole()) return;
+std::optional<VariantJob::OfOtherIsa> VariantJob::batches_of_other_isa() const {
   // From small to large: both processors have what comes first.
   bool is_smaller = true;
   for (const std::string isa : {"sse4.2", "avx2", "avx512"}) {
@@ -114,11 +127,19 @@ void VariantJob::refuse_other_isa() const {
       continue;
     }
     if (const WorkFolder other = folder_.with_hash(hash_with_isa(plan_, isa)); other.is_there())
-      throw InputError({other.path()}, "holds batches of this study computed with " + isa,
-                       "this processor would use " + plan_.isa + ", and bits would differ",
-                       "write solver: {isa: " + (is_smaller ? isa : plan_.isa) +
-                           "} into the study, or run on equal processors");
+      return OfOtherIsa{other.path(), isa, is_smaller ? isa : plan_.isa};
   }
+  return std::nullopt;
+}
+
+/// Shards on machines of different instruction sets would not fit together.
+void VariantJob::refuse_other_isa() const {
+  if (work_.options.shard.is_whole()) return;
+  if (const auto other = batches_of_other_isa())
+    throw InputError(
+        {other->folder}, "holds batches of this study computed with " + other->isa,
+        "this processor would use " + plan_.isa + ", and bits would differ",
+        "write solver: {isa: " + other->both_have + "} into the study, or run on equal processors");
 }
 
 /// A result that cannot be read is no obstacle to --overwrite.
@@ -169,6 +190,11 @@ void VariantJob::begin(const UnitQueue& units) {
   for (std::size_t b = 0; b < plan_.batches(); ++b)
     if (units.may_give(b)) suns += sun_count(plan_, b);
   work_.progress.begin_variant(name_, suns);
+  if (const auto other = batches_of_other_isa())
+    warn(
+        fmt::format("{} holds batches computed with {}, and is not used: this processor uses {}, "
+                    "and bits would differ; solver: {{isa: {}}} in the study would go on from it",
+                    other->folder, other->isa, plan_.isa, other->isa));
   for (const auto& list : {plan_.built.warnings, plan_.light.notes})
     for (const auto& line : list) warn(line);
 }
@@ -296,8 +322,11 @@ int VariantJob::merge_what_is_there(Merge merge) {
     merge_without(missing);
     return exit_code::done;
   }
-  say(fmt::format("{} of {} batches are missing:{}; run the study again with --resume",
-                  missing.numbers.size(), plan_.batches(), list_text(missing.numbers)));
+  say(fmt::format("{} of {} batches are missing:{}; run the study again with --resume{}",
+                  missing.numbers.size(), plan_.batches(), list_text(missing.numbers),
+                  folder_.has_others() ? " (there is work of another state of the study, too: was "
+                                         "it edited meanwhile?)"
+                                       : ""));
   return exit_code::unfinished;
 }
 

@@ -54,7 +54,8 @@ class VariantJob {
   /// Throws InputError where a result exists that the options allow neither to replace nor to
   /// accept, or where other shards compute with another instruction set.
   void expect_may_run() const;
-  /// Throws InputError where merging would replace a result without --overwrite.
+  /// Throws InputError where merging would replace a result without --overwrite, or where what is
+  /// there was computed with another instruction set.
   void expect_may_merge() const;
   /// Whether there is nothing to do: a result of exactly these inputs exists, and the options do
   /// not ask to replace it.
@@ -92,6 +93,12 @@ class VariantJob {
   ResultStamp stamp() const;
   bool has_result() const;
   OwnBatches tell_missing(const std::vector<std::size_t>& missing, const UnitQueue& own) const;
+  /// Work of the very same study on a processor of another instruction set.
+  struct OfOtherIsa {
+    std::string folder, isa;
+    std::string both_have;  ///< the instruction set that this processor and that one have
+  };
+  std::optional<OfOtherIsa> batches_of_other_isa() const;
   void refuse_other_isa() const;
   void refuse_other_state(const char* hint) const;
   UnitQueue own_units(MpiWorld* world) const;

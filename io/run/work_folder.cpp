@@ -90,6 +90,17 @@ WorkFolder WorkFolder::with_hash(const std::string& content_hash) const {
   return other;
 }
 
+bool WorkFolder::has_others() const {
+  std::error_code unreadable;
+  const auto folders = fs::directory_iterator(work_, unreadable);
+  const std::size_t length = variant_.size() + 1 + content_hash_.size();
+  return std::any_of(begin(folders), end(folders), [&](const fs::directory_entry& each) {
+    const std::string name = each.path().filename().string();
+    return name.size() == length && name.starts_with(variant_ + "-") &&
+           each.path() != fs::path(path_) && each.is_directory();
+  });
+}
+
 std::string WorkFolder::batch(std::size_t number) const {
   return path_ + fmt::format("/{:06}.batch", number);
 }

@@ -54,6 +54,8 @@ class WorkFolder {
   std::string merge_lock() const;
 
   bool is_there() const;
+  /// Whether the variant has work at other content hashes, too.
+  bool has_others() const;
   /// Of the finished result; none where there is no result. Throws InputError where it cannot be
   /// read.
   std::optional<ResultState> state() const;

@@ -16,6 +16,7 @@
 #include "geo/sun/map_axes.h"
 #include "io/scene/base/indexed_faces.h"
 #include "io/scene/base/plain_names.h"
+#include "io/scene/raster/fill_holes.h"
 #include "io/scene/raster/raster.h"
 
 namespace sunload {
@@ -59,6 +60,7 @@ class BlockReader {
   }
 
   PolygonModel read() {
+    fill_terrain();
     find_buildings();
     find_land();
     add_land();
@@ -103,6 +105,21 @@ class BlockReader {
   std::size_t cell_count() const { return surface_.values.size(); }
   std::size_t corner_index(Corner corner) const {
     return corner.row * (surface_.columns + 1) + corner.column;
+  }
+
+  /// Many terrain models have no data below buildings.
+  void fill_terrain() {
+    const auto has_surface = [&](std::size_t cell) { return !std::isnan(surface_.values[cell]); };
+    const std::size_t filled = fill_holes(terrain_, has_surface);
+    faces_.notes().count(
+        "cells without data in the terrain raster are filled from what is about them", filled);
+    std::size_t bare = 0;
+    for (std::size_t cell = 0; cell < cell_count(); ++cell)
+      if (has_surface(cell) && std::isnan(terrain_.values[cell])) ++bare;
+    faces_.notes().warn(
+        "cells have a surface but no terrain below or about them: they are left out, and so is "
+        "what stands there",
+        bare);
   }
 
   void find_buildings() {
@@ -209,8 +226,9 @@ class BlockReader {
   void add_land() {
     faces_.use_object("terrain", "TINRelief");
     faces_.use_surface(Surface::ground);
+    // Below buildings, too, where it is covered: they may be taken away.
     for (std::size_t cell = 0; cell < cell_count(); ++cell)
-      if (!std::isnan(terrain_.values[cell]) && !buildings_.has(cell))
+      if (!std::isnan(terrain_.values[cell]))
         add_sloping(
             cell, [&](std::size_t corner) { return land_[corner]; }, true);
   }

@@ -57,6 +57,10 @@ class Groups:
         return student_t(count - 1) * self.realizations[:, k].std(ddof=1) / np.sqrt(count) if count > 1 else np.nan
 
 
+class NothingInCommon(InputError):
+    """No group is in all of the results."""
+
+
 def is_of_both(row):
     return all(value is not None for key, value in row.items() if key.startswith(("base_", "variant_")))
 
@@ -105,7 +109,7 @@ def chosen_names(base, differences, patterns, by):
     if patterns:
         common = [name for name in common if any(fnmatch.fnmatchcase(name, p) for p in patterns)]
     if not common:
-        raise InputError(f"no {by} is in all of the results" + (f" and matches {', '.join(patterns)}" if patterns
+        raise NothingInCommon(f"no {by} is in all of the results" + (f" and matches {', '.join(patterns)}" if patterns
                                                                  else "; choose another --by"))
     change = {name: max(abs(np.nan_to_num(one.number(name, "difference"))) for one in differences) for name in common}
     return sorted(common, key=lambda name: -change[name])[:MOST_GROUPS], len(common)
@@ -117,9 +121,9 @@ def draw(results, arguments, program):
     if len(units) > 1:
         raise InputError(f"the light loads have the units {' and '.join(sorted(units))}: they cannot be compared")
     differences = [Differences(program, base, variant, arguments.by) for variant in variants]
+    names, of_all = chosen_names(base, differences, arguments.group, arguments.by)
     for note in dict.fromkeys(note for one in differences for note in one.notes):
         print(f"note: {note}", file=sys.stderr)
-    names, of_all = chosen_names(base, differences, arguments.group, arguments.by)
     figure, (left, right) = plt.subplots(1, 2, sharey=True, figsize=(11, 1.9 + max(1.2, 0.14 * len(names) * (len(results) + 0.6))))
     thick = 0.8 / len(results)
     labels = legend_words(results)

@@ -3,6 +3,7 @@
 """What the pictures share: colours, command line, saving, the listing of what is drawn."""
 
 import argparse
+import contextlib
 import csv
 import os
 import signal
@@ -142,10 +143,28 @@ def add_targets(p, sensors=True):
                        help="sensor by its index in the file (repeatable)")
 
 
+@contextlib.contextmanager
+def written_aside(path):
+    """A name to write to, which becomes `path` where all is well: what was there before is not lost on a full disk.
+    Errors of writing, which name no file, get the name."""
+    target = os.path.realpath(path)   # links stay
+    stem, ending = os.path.splitext(target)
+    aside = f"{stem}.part-{os.getpid()}{ending}"
+    try:
+        yield aside
+        os.replace(aside, target)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror or str(error), path) from error
+    finally:
+        with contextlib.suppress(OSError):
+            os.remove(aside)
+
+
 def save(figure, path, dpi):
     try:
         metadata = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(os.path.splitext(path)[1].lower())
-        figure.savefig(path, dpi=dpi, metadata=metadata)
+        with written_aside(path) as aside:
+            figure.savefig(aside, dpi=dpi, metadata=metadata)
     except ValueError as error:
         raise InputError(f"{path}: {error}; end the name in .png, .pdf or .svg") from error
     finally:
@@ -174,7 +193,11 @@ def write_csv(path, rows):
     if path == "-":
         write(sys.stdout)
         return
-    with open(path, "w", encoding="utf-8", newline="") as file:
+    if os.path.exists(path) and not os.path.isfile(path):   # a pipe, /dev/null
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            write(file)
+        return
+    with written_aside(path) as aside, open(aside, "w", encoding="utf-8", newline="") as file:
         write(file)
 
 

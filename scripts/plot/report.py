@@ -145,11 +145,24 @@ def scene_pictures(results, program):
                    drawn_scene(program, difference, folder))
 
 
+def variant_pictures(results, program):
+    """Bars of the groups that all variants have: of facades, where none is common to all (a turned site, houses that
+    are taken away) of objects, then of surfaces; none where nothing is."""
+    for by in ("facade", "object", "surface"):
+        if by != "surface" and not all(result.has(f"{by}_name") for result in results):
+            continue
+        try:
+            yield "Variants", compare_bars.draw(results, SimpleNamespace(by=by, group=[]), program)[0]
+            return
+        except compare_bars.NothingInCommon:
+            continue
+
+
 def pictures(results, program):
     """(title, figure) one after the other, so that one figure is open at a time."""
     yield from scene_pictures(results, program)
-    if len(results) > 1 and program.path and all(result.has("facade_name") for result in results):
-        yield "Variants", compare_bars.draw(results, SimpleNamespace(by="facade", group=[]), program)[0]
+    if len(results) > 1 and program.path:
+        yield from variant_pictures(results, program)
     # All variants show the same facades on the same scales.
     largest = max(drawing.scale_end(result.numbers("light_load"), result.numbers("patch_area"))
                   for result in results)
@@ -254,18 +267,13 @@ def main(argv):
         print("no pictures of the scene and no comparison: the program sunload is neither in build/io nor on PATH; name it "
               "with --sunload", file=sys.stderr)
     # Aside first: what fails half-way leaves no half report behind.
-    aside = f"{output}.part-{os.getpid()}"
-    try:
+    with drawing.written_aside(output) as aside:
         if kind == ".html":
             with open(aside, "w", encoding="utf-8") as file:
                 write_html(results, program, file)
         else:
             with open(aside, "wb") as file:
                 write_pdf(results, program, file)
-        os.replace(aside, output)
-    finally:
-        if os.path.exists(aside):
-            os.remove(aside)
     print(f"wrote {output}", file=sys.stderr)
 
 

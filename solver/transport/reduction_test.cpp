@@ -51,13 +51,19 @@ Squares ReductionTest::squares_of(const NodeLight& nodes) const {
   const std::vector<float> noise = noise_of_samples(nodes, weights);
   const std::vector<double>& area = traced_.hierarchy().area();
   const double all = std::accumulate(area.begin(), area.end(), 0.0);
-  Squares sum = ordered_sum(area.size(), receivers_per_chunk, Squares{},
-                            [&](std::size_t begin, std::size_t end) {
-                              Squares part;
-                              for (std::size_t i = begin; i < end; ++i)
-                                add_squares(made, noise, i, part);
-                              return part;
-                            });
+  const OfIntervals each = ordered_sum(area.size(), receivers_per_chunk, OfIntervals{},
+                                       [&](std::size_t begin, std::size_t end) {
+                                         OfIntervals part;
+                                         for (std::size_t i = begin; i < end; ++i)
+                                           add_squares(made, noise, i, part);
+                                         return part;
+                                       });
+  Squares sum;
+  for (std::size_t k = 0; k < suns_->size(); ++k) {
+    sum += each.of[k];
+    const double error = each.of[k].error / all;
+    sum.error2 += error * error;
+  }
   for (double* square : {&sum.sky, &sum.reflected, &sum.error, &sum.standard_error})
     *square = std::max(0.0, *square / all);
   return sum;
@@ -65,9 +71,10 @@ Squares ReductionTest::squares_of(const NodeLight& nodes) const {
 
 /// Of patch i, by its area.
 void ReductionTest::add_squares(const BlockLight& made, const std::vector<float>& noise,
-                                std::size_t i, Squares& sum) const {
+                                std::size_t i, OfIntervals& sums) const {
   const std::vector<double>& area = traced_.hierarchy().area();
   for (std::size_t k = 0; k < suns_->size(); ++k) {
+    Squares& sum = sums.of[k];
     const std::size_t at = i * block_width + k, row = k * area.size() + i;
     const auto sky = static_cast<double>(made.sky[at] + made.mirror[at] - sky_[at] - mirror_[at]);
     const auto noisy = static_cast<double>(noise[row]);

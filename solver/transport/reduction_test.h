@@ -4,7 +4,7 @@
 /// comes.
 #pragma once
 
-#include <cmath>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -19,14 +19,15 @@ struct Squares {
   double sky = 0, reflected = 0;  ///< of each alone
   double error = 0;               ///< of both together; this and `sky` without the noise of samples
   double standard_error = 0;
+  double error2 = 0;  ///< sum of the squares of each interval's `error`
   Squares& operator+=(const Squares& more) {
     sky += more.sky;
     reflected += more.reflected;
     error += more.error;
     standard_error += more.standard_error;
+    error2 += more.error2;
     return *this;
   }
-  double share() const { return standard_error > 0 ? std::sqrt(error / standard_error) : 0; }
 };
 
 /// Keeps the exact light of its intervals, to compare any number of nodes with.
@@ -42,8 +43,15 @@ class ReductionTest {
  private:
   bool has_circumsolar() const { return any_circumsolar(sources_.circumsolar); }
 
+  struct OfIntervals {
+    std::array<Squares, block_width> of{};
+    OfIntervals& operator+=(const OfIntervals& more) {
+      for (std::size_t k = 0; k < block_width; ++k) of[k] += more.of[k];
+      return *this;
+    }
+  };
   void add_squares(const BlockLight& made, const std::vector<float>& noise, std::size_t patch,
-                   Squares& sum) const;
+                   OfIntervals& sums) const;
   void keep_light(BlockLight exact);
   std::vector<float> noise_of_samples(const NodeLight& nodes,
                                       const std::vector<NodeWeights>& weights) const;

@@ -99,9 +99,19 @@ Squares mean_squares(const std::vector<ReductionTest>& made, const NodeLight& no
                      std::size_t intervals) {
   Squares sum;
   for (const ReductionTest& test : made) sum += test.squares_of(nodes);
-  for (double* square : {&sum.sky, &sum.reflected, &sum.error, &sum.standard_error})
+  for (double* square : {&sum.sky, &sum.reflected, &sum.error, &sum.standard_error, &sum.error2})
     *square /= static_cast<double>(intervals);
   return sum;
+}
+
+/// Of a mean over so many intervals: surely below a third of the standard error, that of the mean
+/// itself taken in. A few hours may have most of the error (low suns on snow), and the nodes that
+/// the tests like best are those that come near to the tests.
+bool is_met(const Squares& mean, std::size_t intervals) {
+  const auto n = static_cast<double>(intervals);
+  const double variance = std::max(0.0, mean.error2 - mean.error * mean.error);
+  const double error_of_mean = n > 1 ? std::sqrt(variance / (n - 1)) : 0;
+  return mean.error + error_of_mean <= wanted_share * wanted_share * mean.standard_error;
 }
 
 /// Nodes to begin with.
@@ -123,7 +133,7 @@ Reduction take_nodes(NodeLight& nodes, const std::vector<ReductionTest>& made,
     nodes.take(skies, suns, work, [&](double share) { ahead.advance(share); });
     const Squares squares = mean_squares(made, nodes, intervals);
     const Reduction reduction{nodes.skies().count(), nodes.suns().count(), std::sqrt(squares.error),
-                              std::sqrt(squares.standard_error), squares.share() <= wanted_share};
+                              std::sqrt(squares.standard_error), is_met(squares, intervals)};
     if (reduction.is_met || static_cast<double>(reduction.skies + reduction.suns) >= most)
       return reduction;
     const bool no_more_suns = nodes.suns().count() == nodes.suns().ranked().size();

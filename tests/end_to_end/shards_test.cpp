@@ -489,6 +489,50 @@ TEST(Shards, ADamagedBatchOfAnotherShardIsNamedAndComputedAgain) {
   expect_same_result(folder);
 }
 
+/// A processor of another kind would compute other bits: what it finds is never lost silently.
+TEST(Shards, WorkOfAnotherInstructionSetIsNamed) {
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  const auto with_isa = [&](const std::string& isa) {
+    folder.write("square.yaml", square_study("totals", ", isa: " + isa));
+  };
+  const auto of = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin() + 1, "square.yaml");
+    return program(folder, arguments);
+  };
+  with_isa("sse4.2");
+  ASSERT_EQ(of({"run", "--shard", "0/2"}).code, 0);
+  with_isa("avx2");
+  for (const auto& arguments :
+       {std::vector<std::string>{"merge"}, {"merge", "--partial"}, {"run", "--shard", "1/2"}}) {
+    const Ran ran = of(arguments);
+    EXPECT_EQ(ran.code, 2) << ran.err;
+    EXPECT_NE(ran.err.find("holds batches of this study computed with sse4.2"), std::string::npos)
+        << ran.err;
+    EXPECT_NE(ran.err.find("write solver: {isa: sse4.2}"), std::string::npos) << ran.err;
+  }
+  const Ran whole = of({"run", "--resume"});
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  EXPECT_NE(whole.err.find("holds batches computed with sse4.2, and is not used"),
+            std::string::npos)
+      << whole.err;
+  with_isa("sse4.2");
+  for (const std::string command : {"run", "merge"}) {
+    const Ran ran = of({command});
+    EXPECT_EQ(ran.code, 2) << ran.err;
+    EXPECT_NE(ran.err.find("computed with avx2, this processor would use sse4.2"),
+              std::string::npos)
+        << ran.err;
+  }
+  // Other work of a study that was edited between shards.
+  folder.write("square.yaml", square_study("totals", ", seed: 7"));
+  ASSERT_EQ(of({"run", "--shard", "0/2", "--output", "other"}).code, 0);
+  folder.write("square.yaml", square_study("totals", ", seed: 8"));
+  const Ran edited = of({"merge", "--output", "other"});
+  EXPECT_EQ(edited.code, 75) << edited.err;
+  EXPECT_NE(edited.err.find("was it edited meanwhile?"), std::string::npos) << edited.err;
+}
+
 TEST(Shards, SignalsEndWith75Within5Seconds) {
   for (const int signal : {SIGUSR1, SIGTERM}) {
     const WorkFolder folder;

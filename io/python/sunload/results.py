@@ -203,12 +203,22 @@ class Accessor:
             ghi = ghi if lacking.all() else np.where(lacking, np.nan, ghi)
         return int(np.nanargmax(ghi))
 
+    def _when(self, time: Any) -> str:
+        """An interval's instant in civil time of the site; of steps that are means of many intervals begin and end."""
+        result = self._result
+
+        def civil(at: Any) -> str:
+            return f"{pandas.Timestamp(at).tz_localize('UTC').tz_convert(_zone(result)).floor('s'):%Y-%m-%d %H:%M:%S%z}"
+        if not result.attrs.get("series_step"):
+            return civil(time)
+        return " … ".join(civil(at) for at in result["time_bounds"].sel(time=time).values)
+
     def plot_map(self, quantity: str = "light_load", time: Optional[Any] = None, ax: Optional[Any] = None,
                  **options: Any) -> Any:
         """A map of what is seen from above, higher patches over lower ones, by matplotlib; returns its axes. `time`: of
         a series, in UTC as all times of the dataset: the interval that holds it, the brightest where left out; the title
-        tells it in civil time of the site. `ax`: the current axes while they are empty, else new ones. Options go to
-        PolyCollection. Raises ValueError for a time in no interval, and for one of a total."""
+        tells it in civil time of the site. Of light in bands the mean of these. `ax`: the current axes while they are
+        empty, else new ones. Options go to PolyCollection. Raises ValueError for a time in no interval, and for one of a total."""
         from matplotlib import pyplot  # needed here alone
         from matplotlib.collections import PolyCollection
         result = self._result
@@ -217,6 +227,8 @@ class Accessor:
             values = values.isel(time=self._brightest() if time is None else self._interval_at(time))
         elif time is not None:
             raise ValueError(f"{quantity} is of the whole period: it has no time")
+        if "band" in values.dims:
+            values = values.mean("band", keep_attrs=True)
         if values.dims != ("patch",):
             raise ValueError(f"{quantity} has the dimensions {values.dims}; a map is of patches")
         corners = result["vertex_position"].values[result["patch_vertices"].values.astype(int)]
@@ -233,8 +245,7 @@ class Accessor:
         ax.set_xlabel("x [m]")
         ax.set_ylabel("y [m]")
         if "time" in values.coords and not result.attrs.get("time_is_synthetic", 0):
-            when = pandas.Timestamp(values["time"].values).tz_localize("UTC")
-            ax.set_title(f"{when.tz_convert(_zone(result)).floor('s'):%Y-%m-%d %H:%M:%S%z}")
+            ax.set_title(self._when(values["time"].values))
         units = values.attrs.get("units", "")
         ax.figure.colorbar(drawn, ax=ax, label=f"{quantity} [{units}]" if units else quantity)
         return ax

@@ -3,6 +3,7 @@
 #include "io/scene/base/from_file.h"
 
 #include <cmath>
+#include <utility>
 
 #include "geo/base/coordinates.h"
 
@@ -45,6 +46,11 @@ std::string UniqueNames::operator()(const std::string& name) {
   for (int& n = last_.try_emplace(name, 1).first->second; !taken_.insert(candidate).second;)
     candidate = name + "_" + std::to_string(++n);
   return candidate;
+}
+
+void put_notes(const NoteCounter& counted, PolygonModel& model) {
+  for (auto& line : counted.lines()) model.notes.push_back(std::move(line));
+  for (auto& line : counted.warnings()) model.warnings.push_back(model.source + ": " + line);
 }
 
 }  // namespace sunload

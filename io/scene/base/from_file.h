@@ -10,6 +10,7 @@
 
 #include "geo/base/check.h"
 #include "geo/base/vec.h"
+#include "geo/mesh/mesh.h"
 #include "io/base/file_text.h"
 #include "io/scene/base/file_rules.h"
 
@@ -35,6 +36,9 @@ bool is_usable(Vec3 scene_position);
 /// Corners of faces that so many bytes may make, where a format names parts again and again
 /// (instances, USE, shared nodes): no file of less than 1 MB shall take more than 1 GB.
 constexpr std::size_t most_corners_of(std::size_t file_bytes) { return 8'000'000 + 4 * file_bytes; }
+
+/// Hands what was counted over to the model, behind what it has been told before.
+void put_notes(const NoteCounter& counted, PolygonModel& model);
 
 /// Hands out `name`, or `name_2`, `name_3` … where it is taken.
 class UniqueNames {

@@ -106,7 +106,7 @@ PolygonModel IndexedFaces::finish() {
   }
   model_.vertices = std::move(vertices_);
   transparent_.count_used(model_, notes_);
-  for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
+  put_notes(notes_, model_);
   return std::move(model_);
 }
 

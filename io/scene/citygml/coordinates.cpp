@@ -139,6 +139,7 @@ void CityCoordinates::add_coord(XmlElement coord) {
 void CityCoordinates::gather(XmlElement curve, int depth) {
   if (depth > deepest_curve)
     document_.file().fail(curve, "curves nest too deep", "do its links form a circle?");
+  const std::size_t first = corners_.size();
   for (const auto child : curve.children()) {
     document_.spend(child, 1);
     const auto name = child.name();
@@ -156,6 +157,11 @@ void CityCoordinates::gather(XmlElement curve, int depth) {
         gather(value, depth + 1);
       }
     }
+  }
+  if (curve.name() == "OrientableCurve" && curve.attribute("orientation") == "-") {
+    const auto begin = corners_.begin() + static_cast<std::ptrdiff_t>(first);
+    std::reverse(begin, corners_.end());
+    corners_.erase(std::unique(first > 0 ? begin - 1 : begin, corners_.end()), corners_.end());
   }
   document_.spend(curve, corners_.size());
 }

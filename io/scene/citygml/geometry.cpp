@@ -35,6 +35,7 @@ bool is_aggregate(std::string_view geometry) {
                            "Surface",
                            "Tin",
                            "OrientableSurface",
+                           "TexturedSurface",
                            "PolyhedralSurface",
                            "TriangulatedSurface",
                            "MultiGeometry",
@@ -71,7 +72,9 @@ class Collector {
     if (!met_.add(geometry, is_flipped)) return;
     material = appearance_.of(geometry, material);
     if (is_polygon(name)) return polygons_.push_back({geometry, is_flipped, material});
-    const bool turns = name == "OrientableSurface" && geometry.attribute("orientation") == "-";
+    // The second is of CityGML 1, and one of the first.
+    const bool turns = (name == "OrientableSurface" || name == "TexturedSurface") &&
+                       geometry.attribute("orientation") == "-";
     for (const auto property : geometry.children()) {
       if (!is_member(property.name())) continue;
       for (const auto part : document_.values(property))
@@ -81,8 +84,8 @@ class Collector {
 
  private:
   void count_other(std::string_view name) {
-    notes_.count(is_thin(name) ? "geometries of points or lines ignored"
-                               : "geometries of unknown type '" + shortened(name) + "' ignored");
+    if (is_thin(name)) return notes_.count("geometries of points or lines ignored");
+    notes_.warn("geometries of unknown type '" + shortened(name) + "' ignored", 1);
   }
 
   const CityDocument& document_;

@@ -59,7 +59,7 @@ class CityReader {
     }
     add_families();
     appearance_.transparent().count_used(model_, notes_);
-    for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
+    put_notes(notes_, model_);
     return std::move(model_);
   }
 

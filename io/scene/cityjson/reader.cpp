@@ -70,7 +70,7 @@ class CityReader {
     refuse_degrees();
     add_families();
     transparent_.count_used(model_, notes_);
-    for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
+    put_notes(notes_, model_);
     return std::move(model_);
   }
 

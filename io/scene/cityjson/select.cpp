@@ -35,9 +35,10 @@ std::optional<LodRank> geometry_rank(const json& geometry, const std::string& ob
   const auto& shape = is_instance ? template_of(geometry, object, place) : geometry;
   const auto type = text_member(shape, "type");
   if (!has_surfaces(type)) {
-    notes.count(type == "MultiPoint" || type == "MultiLineString"
-                    ? "geometries of points or lines ignored"
-                    : "geometries of unknown type '" + shortened(type) + "' ignored");
+    if (type == "MultiPoint" || type == "MultiLineString")
+      notes.count("geometries of points or lines ignored");
+    else
+      notes.warn("geometries of unknown type '" + shortened(type) + "' ignored", 1);
     return std::nullopt;
   }
   return wish.rank(lod_of_geometry(shape));

@@ -57,7 +57,7 @@ class ObjReader {
     check_indices();
     keep_what_is_used();
     resolve_materials();
-    for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
+    put_notes(notes_, model_);
     return std::move(model_);
   }
 

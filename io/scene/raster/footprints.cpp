@@ -15,6 +15,7 @@
 #include "geo/sun/map_axes.h"
 #include "io/scene/base/from_file.h"
 #include "io/scene/raster/crossing_outlines.h"
+#include "io/scene/raster/fill_holes.h"
 #include "io/scene/raster/gdal_file.h"
 #include "io/scene/raster/raster.h"
 
@@ -215,8 +216,11 @@ class FootprintReader {
   double map_unit_m() const { return is_in_degrees_ ? 1 : unit_m_; }
 
   void read_terrain() {
-    if (!rules_.terrain.empty())
-      terrain_ = read_raster(rules_.terrain, map_unit_m(), RasterValues::elevations, notes_);
+    if (rules_.terrain.empty()) return;
+    terrain_ = read_raster(rules_.terrain, map_unit_m(), RasterValues::elevations, notes_);
+    // Many terrain models have no data below buildings.
+    notes_.count("cells without data in the terrain are filled from what is about them",
+                 fill_holes(*terrain_, [](std::size_t) { return true; }));
   }
 
   void expect_terrain_of_the_map() const {
@@ -368,7 +372,8 @@ class FootprintReader {
           if (const auto land = height_between_cells(*terrain_, map_unit_m(), corner.u, corner.v))
             lowest = std::min(lowest, *land);
       if (std::isfinite(lowest)) return lowest;
-      fail(name + " lies outside of the terrain", rules_.terrain + " has no land below it",
+      fail(name + " lies outside of the terrain",
+           rules_.terrain + " has no data below it, nor on most sides about it",
            "take a larger raster, or footprints: {base: COLUMN}");
     }
     if (std::isfinite(lowest_z)) return lowest_z;
@@ -396,7 +401,7 @@ class FootprintReader {
                       "they count as not written",
                       unread_, first_unread_));
     if (storeys_ >= 0) notes_.say(fmt::format("a storey is {:g} m high", rules_.storey_m));
-    model_.notes = notes_.lines();
+    put_notes(notes_, model_);
   }
 
   std::string path_;

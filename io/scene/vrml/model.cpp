@@ -129,7 +129,7 @@ PolygonModel VrmlModel::finish() {
         "coordinates are read in single precision: steps of {:.2g} m at {:.0f} m", step, largest_));
   }
   transparent_.count_used(model_, notes_);
-  for (auto& line : notes_.lines()) model_.notes.push_back(std::move(line));
+  put_notes(notes_, model_);
   return std::move(model_);
 }
 

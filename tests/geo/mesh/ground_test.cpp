@@ -330,6 +330,35 @@ TEST(Ground, TerrainOfTheModelGoesFirst) {
   EXPECT_LT(p.report.ground->gap_m.front(), -1.5);
 }
 
+/// Terrain that rises to the north, 10 %, with a hole from 10 to 30 m and a house in it, whose foot
+/// is flat at its lowest land.
+double wall_above_land(bool has_hole) {
+  auto builder = ModelBuilder().city().object("terrain", "TINRelief").with(Surface::ground);
+  const auto land = [](double x, double y) { return Vec3{x, y, 0.1 * y}; };
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) {
+      const double x = 5.0 * i, y = 5.0 * j;
+      const bool is_in_hole = i >= 2 && i < 6 && j >= 2 && j < 6;
+      if (!(has_hole && is_in_hole))
+        builder.ring({land(x, y), land(x + 5, y), land(x + 5, y + 5), land(x, y + 5)});
+    }
+  builder.with(Surface::other).object("house", "Building").box({11, 11, 1.1}, {29, 29, 10});
+  auto p = builder.prepared(on_feet());
+  Mesh& mesh = p.mesh;
+  cut_covered(mesh, p.bodies, std::vector<std::uint8_t>(mesh.triangle_count(), 1), p.seals);
+  double area = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.triangle_surface[t] == Surface::wall && !mesh.is_covered(t))
+      area += norm(mesh.area_vector2(t)) / 2;
+  return area;
+}
+
+TEST(Ground, InAHoleOfTheTerrainAHouseStandsNoDeeperThanOnIt) {
+  const double on_it = wall_above_land(false);
+  EXPECT_NEAR(on_it, 4 * 18 * (10 - 0.1 * 20), 0.02 * on_it);
+  EXPECT_NEAR(wall_above_land(true), on_it, 0.01 * on_it);
+}
+
 TEST(Ground, SteepPartsOfTheTerrainAreNotMadeAgain) {
   auto builder = ModelBuilder().city().object("terrain", "TINRelief").with(Surface::ground);
   const auto land = [](double x, double y) { return Vec3{x, y, x > 15 ? 9.0 : 0.0}; };

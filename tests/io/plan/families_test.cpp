@@ -82,6 +82,28 @@ class Families : public testing::Test {
   const Names of_hall_{"hall_low", "hall_high", "chimney"};
 };
 
+TEST_F(Families, PartsThatStandOnAPartRiseWithIt) {
+  const auto part = [](const char* of) { return std::string(R"("parents":[")") + of + R"("])"; };
+  folder_.write("town.city.json",
+                FamilyTown()
+                    .add_bare("house", "Building", R"("children":["main","wing","tower","top"])")
+                    .add("main", "BuildingPart", part("house"), {0, 0, 0}, {20, 12, 10})
+                    .add("wing", "BuildingPart", part("house"), {20, 0, 0}, {26, 12, 6})
+                    .add("tower", "BuildingPart", part("house"), {4, 4, 10}, {8, 8, 13})
+                    .add("top", "BuildingPart", part("house"), {5, 5, 13}, {6, 6, 14})
+                    .text());
+  const auto by = [&](const std::string& by_m) {
+    return heights(model("{object: house, raise: {by_m: " + by_m + "}}"));
+  };
+  EXPECT_EQ(by("3"),
+            (Heights{{"main", {0, 13}}, {"wing", {0, 9}}, {"tower", {13, 16}}, {"top", {16, 17}}}));
+  EXPECT_EQ(by("-4"),
+            (Heights{{"main", {0, 6}}, {"wing", {0, 2}}, {"tower", {6, 9}}, {"top", {9, 10}}}));
+  // By itself a part is a body.
+  EXPECT_EQ(heights(model("{object: tower, raise: {by_m: 2}}"))["tower"],
+            (std::pair<double, double>{10, 15}));
+}
+
 TEST_F(Families, RiseWithWhatSitsOnThem) {
   Heights raised = as_read();
   raised["house"] = {0, 9};

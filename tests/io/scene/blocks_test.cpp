@@ -85,8 +85,9 @@ TEST(SceneBlocks, VolumesAndAreasAreThoseOfTheCells) {
   walls += 2 * beside(14, 3) + cell * ((14 - corner(3)) + (14 - corner(4)));
   EXPECT_NEAR(area(Surface::wall), walls, 1e-9 * walls);
   const double slope = std::hypot(1, 0.25);  // 0.5 m on 2 m
-  EXPECT_GT(area(Surface::ground), 15 * cell * cell);
-  EXPECT_LT(area(Surface::ground), 15 * cell * cell * slope + 1e-9);
+  // Below buildings, too.
+  EXPECT_GT(area(Surface::ground), 20 * cell * cell);
+  EXPECT_LT(area(Surface::ground), 20 * cell * cell * slope + 1e-9);
   EXPECT_EQ(area(Surface::other), 0);
 }
 
@@ -131,6 +132,34 @@ TEST(SceneBlocks, MissingCellsAreLeftOut) {
       has_note(model, "1 cells without data in the surface raster are taken for bare land"));
   EXPECT_EQ(bounding_box(model.vertices).high.x, 1000 + 4 * cell);
   EXPECT_EQ(prepare(model, {}).report.closed_bodies, 2u);
+}
+
+/// As in terrain models from which buildings were taken out.
+TEST(SceneBlocks, BuildingsStandWhereTheTerrainHasHoles) {
+  const auto is_house = [](std::size_t c, std::size_t r) {
+    return (c == 1 || c == 2) && (r == 1 || r == 2);
+  };
+  const auto holed = [&](std::size_t c, std::size_t r) {
+    return is_house(c, r) ? -9999 : land(c, r);
+  };
+  const auto model = blocks(houses, holed), whole = blocks(houses, land);
+  EXPECT_TRUE(has_note(model, "4 cells without data in the terrain raster are filled"));
+  EXPECT_TRUE(model.warnings.empty());
+  const auto report = prepare(model, {}).report;
+  EXPECT_EQ(report.closed_bodies, 2u);
+  EXPECT_NEAR(report.volume_m3, prepare(whole, {}).report.volume_m3, 1e-9);  // the land is a plane
+  // One cell of a house alone.
+  const auto one = [&](std::size_t c, std::size_t r) {
+    return c == 1 && r == 1 ? -9999 : land(c, r);
+  };
+  EXPECT_NEAR(prepare(blocks(houses, one), {}).report.volume_m3, report.volume_m3, 1e-9);
+  // Beyond the rim of the terrain nothing is made up.
+  const auto western = [](std::size_t c, std::size_t r) { return c >= 3 ? -9999 : land(c, r); };
+  const auto cut = blocks(houses, western);
+  EXPECT_TRUE(has_note(cut, "8 cells of the raster have no data"));
+  ASSERT_EQ(cut.warnings.size(), 1u);
+  EXPECT_NE(cut.warnings[0].find("8 cells have a surface but no terrain below or about them"),
+            std::string::npos);
 }
 
 TEST(SceneBlocks, CrownsStandOnTrunks) {

@@ -152,6 +152,21 @@ TEST(Footprints, StandOnTheLowestLandBelowThem) {
   EXPECT_NE(refused.find("lies outside of the terrain"), std::string::npos) << refused;
 }
 
+TEST(Footprints, StandOnLandAboutThemWhereThereIsNoneBelow) {
+  const WorkFolder folder;
+  SceneFileRules rules;
+  std::string grid =
+      "ncols 5\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 10\nnodata_value -9999\n";
+  for (int r = 0; r < 5; ++r)
+    for (int c = 0; c < 5; ++c)
+      grid += fmt::format("{} ", r > 0 && r < 4 && c > 0 && c < 4 ? -9999 : 10 * c);
+  rules.footprints.terrain = folder.write("land.asc", grid);
+  const auto model = read_text(
+      "plan.geojson", plan({feature(R"("height": 10)", "[" + square(20, 20, 10) + "]")}), rules);
+  EXPECT_EQ(extent(model, 0), (std::pair{15.0, 25.0}));  // 20 m at x = 25, the middle
+  EXPECT_TRUE(has_note(model, "9 cells without data in the terrain are filled"));
+}
+
 TEST(Footprints, SayWhatIsMissing) {
   const std::string ring = "[" + square(0, 0, 9) + "]";
   FootprintRules tall, layer_b;

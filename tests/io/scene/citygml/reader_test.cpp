@@ -140,20 +140,35 @@ TEST(SceneCityGml, GeometriesOfEveryKind) {
 }
 
 TEST(SceneCityGml, OrientableSurfacesTurn) {
-  const auto of = [](const std::string& sign) {
-    return read_text(
-        "turned.gml",
-        city_gml(building(
-            "b", element("bldg:lod2MultiSurface",
-                         multi_surface({element("gml:OrientableSurface",
-                                                element("gml:baseSurface", polygon(triangle)),
-                                                "orientation=\"" + sign + "\"")})))));
-  };
-  const auto kept = of("+"), turned = of("-");
-  EXPECT_EQ(corner(kept, 0, 0, 1), (Vec3{1, 0, 0}));
-  EXPECT_EQ(corner(turned, 0, 0, 1), (Vec3{1, 0, 0}));  // the second of three either way …
-  EXPECT_EQ(corner(turned, 0, 0, 0), corner(kept, 0, 0, 2));
-  EXPECT_EQ(corner(turned, 0, 0, 2), corner(kept, 0, 0, 0));
+  // The second is of CityGML 1.
+  for (const std::string name : {"gml:OrientableSurface", "tex:TexturedSurface"}) {
+    const auto of = [&](const std::string& sign) {
+      return read_text(
+          "turned.gml",
+          city_gml(building("b", element("bldg:lod2MultiSurface",
+                                         multi_surface({element(
+                                             name, element("gml:baseSurface", polygon(triangle)),
+                                             "xmlns:tex=\"http://www.opengis.net/citygml/"
+                                             "texturedsurface/1.0\" orientation=\"" +
+                                                 sign + "\"")})))));
+    };
+    const auto kept = of("+"), turned = of("-");
+    ASSERT_EQ(kept.polygon_count(), 1u) << name;
+    EXPECT_EQ(corner(kept, 0, 0, 1), (Vec3{1, 0, 0}));
+    EXPECT_EQ(corner(turned, 0, 0, 1), (Vec3{1, 0, 0}));  // the second of three either way …
+    EXPECT_EQ(corner(turned, 0, 0, 0), corner(kept, 0, 0, 2));
+    EXPECT_EQ(corner(turned, 0, 0, 2), corner(kept, 0, 0, 0));
+  }
+}
+
+TEST(SceneCityGml, SurfacesThatAreNotReadAreWarnedOf) {
+  const auto model = read_text(
+      "odd.gml", city_gml(building(
+                     "b", element("bldg:lod2MultiSurface",
+                                  multi_surface({polygon(triangle), element("gml:Sphere", "")})))));
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("1 geometries of unknown type 'Sphere' ignored"),
+            std::string::npos);
 }
 
 TEST(SceneCityGml, PositionsInEveryForm) {
@@ -171,7 +186,12 @@ TEST(SceneCityGml, PositionsInEveryForm) {
       "<gml:coord><gml:X>0</gml:X><gml:Y>1</gml:Y><gml:Z>0</gml:Z></gml:coord></gml:LinearRing>",
       "<gml:Ring><gml:curveMember><gml:LineString><gml:posList>0 0 0 1.5 0 0</gml:posList>"
       "</gml:LineString></gml:curveMember><gml:curveMember><gml:LineString><gml:posList>1.5 0 0 0 "
-      "1 0 0 0 0</gml:posList></gml:LineString></gml:curveMember></gml:Ring>"};
+      "1 0 0 0 0</gml:posList></gml:LineString></gml:curveMember></gml:Ring>",
+      "<gml:Ring><gml:curveMember><gml:LineString><gml:posList>0 0 0 1.5 0 0</gml:posList>"
+      "</gml:LineString></gml:curveMember><gml:curveMember><gml:OrientableCurve "
+      "orientation=\"-\"><gml:baseCurve><gml:LineString><gml:posList>0 0 0 0 1 0 1.5 0 0"
+      "</gml:posList></gml:LineString></gml:baseCurve></gml:OrientableCurve></gml:curveMember>"
+      "</gml:Ring>"};
   for (const auto& each : rings) {
     const auto model = read_text(
         "ring.gml",

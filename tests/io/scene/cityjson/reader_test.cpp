@@ -98,7 +98,9 @@ TEST(SceneCityJson, AllGeometryTypes) {
   EXPECT_EQ(model.polygon_count(), 2u + 3u + 4u + 2u);
   EXPECT_EQ(model.object_names, (std::vector<std::string>{"a", "b", "c", "d"}));
   EXPECT_TRUE(has_note(model, "2 geometries of points or lines"));
-  EXPECT_TRUE(has_note(model, "1 geometries of unknown type '+Mesh'"));
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings[0].find("1 geometries of unknown type '+Mesh' ignored"),
+            std::string::npos);
 }
 
 TEST(SceneCityJson, SemanticSurfaces) {
