@@ -12,6 +12,7 @@
 #include "io/plan/mesh_family.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/seasons_of_plan.h"
+#include "io/plan/shared_samples.h"
 #include "io/plan/stored_bits.h"
 #include "io/plan/surface_shares.h"
 #include "io/plan/variant_mesh.h"
@@ -224,7 +225,9 @@ WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
   const auto materials = materials_of(plan);
   const bool guided = std::any_of(materials.begin(), materials.end(), emits);  // by who gathers
   // A period of few solutions is tried without a sky.
-  const double to_sky = is_year_of_few(plan) ? 0 : circumsolar_receivers(plan, patches);
+  const double to_sky = is_year_of_few(plan)
+                            ? 0
+                            : circumsolar_receivers(plan, patches) * share_of_samples_drawn(plan);
   return {
       tracing_seconds(plan, n, lines, guided) / threads,
       sun_seconds(static_cast<double>(patches), counts.suns,
@@ -338,9 +341,9 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const S
       (suns - shining) * static_cast<double>(net_size(counts.direct_samples, s.realizations));
   const double rays_to_sun = facing_share * asked_by_rays(plan, patches) * rays_of_suns;
   const double rays_of_sensors = sensors_that_face(plan) * rays_of_suns;
-  const double circumsolar_rays = facing_share * circumsolar_receivers(plan, patches) *
-                                  std::min(near_suns, shining) * (of_few ? bands : 1) *
-                                  counts.direct_samples;
+  const double circumsolar_rays =
+      facing_share * circumsolar_receivers(plan, patches) * std::min(near_suns, shining) *
+      (of_few ? bands : 1) * counts.direct_samples * (of_few ? 1 : share_of_samples_drawn(plan));
   const double luminaire_rays = seasons * n * luminaires_seen * counts.direct_samples *
                                 static_cast<double>(plan.built.scene.luminaires.all.size());
   work.direct_rays =

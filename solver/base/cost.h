@@ -40,6 +40,9 @@ inline constexpr double s_per_lit_share = 4.0e-7;
 inline constexpr double cost_of_interpolation = 0.045, most_bytes_of_share_grid = 1 << 30;
 inline constexpr double s_per_direct_ray = 3.5e-8;
 inline constexpr double s_per_circumsolar_ray = 1.0e-7;
+/// Of these rays, where suns share them: of one in the place of another, and from where on each has
+/// its own.
+inline constexpr double rays_in_one_place = 0.2, degrees_to_share_rays = 18;
 /// Of patches that a sun stands before: that edges of shadows cross, and that are behind screens.
 inline constexpr double share_at_edges = 0.15, share_behind_screens = 0.1;
 inline constexpr double s_per_luminaire_ray = 1.0e-7;

@@ -4,14 +4,15 @@
 ///
 /// A clear sky holds up to a third of its light within some degrees of the sun, where few of a
 /// patch's lines end, and the same few for all suns that stand there. So this part, L_circ, is
-/// sampled per patch and sun like the sun itself, with directions drawn in proportion to L_circ·q,
-/// q ≈ cosθ (CircumsolarView):
+/// sampled per patch like the sun itself. Suns of a block share their samples: directions are drawn
+/// in proportion to S·q, S the mixture of their L_circ (CircumsolarMixture), q ≈ cosθ
+/// (CircumsolarView):
 ///
-///     E_circ = T/n Σ_samples V cosθ / q ,   T = ∫ L_circ q dω
+///     E_circ = T/n Σ_samples V (L_circ/S) cosθ / q ,   T = ∫ S q dω
 ///
-/// Every term is ≥ 0, and 0 where nothing is seen; where all is seen there is next to no error,
-/// since cosθ / q is 1 but for the curvature of a cell. Light that mirrors send is left to the
-/// lines alone.
+/// Every term is ≥ 0, and 0 where nothing is seen; where all is seen there is next to no error of a
+/// sun alone, since cosθ / q is 1 but for the curvature of a cell. Light that mirrors send is left
+/// to the lines alone.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@
 
 namespace sunload {
 
-/// Adds the irradiance by L_circ of the block to `into`, with as many samples as the sun gets.
-/// Returns the rays cast.
+/// Adds the irradiance by L_circ of the block to `into`, for each sun no less surely than with as
+/// many samples of its own as the sun gets. Returns the rays cast.
 std::uint64_t circumsolar_light(const RayCaster& caster, const SunSampler& sampler,
                                 std::span<const IntervalLight> block,
                                 const std::vector<CircumsolarSky>& skies, const RaySink& into);

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
+#include "geo/base/check.h"
 #include "geo/base/vector_code.h"
 
 namespace sunload {
@@ -43,6 +45,26 @@ std::vector<double> excess(const SkyGrid& grid, const std::vector<double>& radia
   return sum > least_share * all ? above : std::vector<double>();
 }
 
+/// Bits of column and row in turn (Morton 1966): cells of near codes are near each other, and
+/// points that are spread evenly over them in this order are spread evenly over the sky.
+std::uint32_t morton_code(const SkyGrid& grid, int cell) {
+  const auto column = static_cast<std::uint32_t>(cell % grid.side()),
+             row = static_cast<std::uint32_t>(cell / grid.side());
+  std::uint32_t code = 0;
+  for (std::uint32_t bit = 0; bit < 16; ++bit)
+    code |= (column >> bit & 1u) << (2 * bit) | (row >> bit & 1u) << (2 * bit + 1);
+  return code;
+}
+
+/// Cells that have something, in that order.
+std::vector<int> near_each_other(const SkyGrid& grid, const std::vector<double>& part) {
+  std::vector<int> cells;
+  for (int c = 0; c < grid.cell_count(); ++c)
+    if (part[static_cast<std::size_t>(c)] > 0) cells.push_back(c);
+  std::ranges::sort(cells, {}, [&](int c) { return morton_code(grid, c); });
+  return cells;
+}
+
 /// What a band has of the sky where that part lies, relative to the broadband sky.
 double factor_of_band(const std::vector<double>& part, const std::vector<double>& broadband,
                       const std::vector<double>& of_band) {
@@ -66,8 +88,11 @@ CircumsolarSky::CircumsolarSky(const SkyGrid& grid, const IntervalLight& light) 
   circumsolar_ = std::move(part);
   cell_width_ = 2.0f / static_cast<float>(grid.side());
   strength_ = grid.solid_angle() * std::accumulate(circumsolar_.begin(), circumsolar_.end(), 0.0);
-  for (int c = 0; c < grid.cell_count(); ++c)
-    if (circumsolar_[static_cast<std::size_t>(c)] > 0) add_cell(grid, c);
+  for (const int cell : near_each_other(grid, circumsolar_)) add_cell(grid, cell);
+  find_cone();
+}
+
+void CircumsolarSky::find_cone() {
   axis_ = normalized(axis_);
   double least_cosine = 1;
   for (std::size_t corner = 0; corner < 4; ++corner)
@@ -83,6 +108,7 @@ void CircumsolarSky::add_cell(const SkyGrid& grid, int cell) {
   const double brightness =
       circumsolar_[static_cast<std::size_t>(cell)] * grid.solid_angle() / strength_;
   axis_ += brightness * grid.direction(cell, 0.5, 0.5);
+  place_.push_back(morton_code(grid, cell));
   brightness_.push_back(static_cast<float>(brightness));
   const int column = cell % grid.side(), row = cell / grid.side();
   a_.push_back(static_cast<float>(column) * cell_width_ - 1);
@@ -95,8 +121,84 @@ void CircumsolarSky::add_cell(const SkyGrid& grid, int cell) {
   }
 }
 
+/// A cell that another sky has, too.
+void CircumsolarSky::add_cell_of(const CircumsolarSky& other, std::size_t c, float brightness) {
+  place_.push_back(other.place_[c]);
+  brightness_.push_back(brightness);
+  a_.push_back(other.a_[c]);
+  b_.push_back(other.b_[c]);
+  Vec3 sum{0, 0, 0};
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    x_[corner].push_back(other.x_[corner][c]);
+    y_[corner].push_back(other.y_[corner][c]);
+    z_[corner].push_back(other.z_[corner][c]);
+    sum += Vec3{static_cast<double>(other.x_[corner][c]), static_cast<double>(other.y_[corner][c]),
+                static_cast<double>(other.z_[corner][c])};
+  }
+  axis_ += static_cast<double>(brightness) * sum;
+}
+
 bool any_circumsolar(const std::vector<CircumsolarSky>& skies) {
   return std::any_of(skies.begin(), skies.end(), [](const CircumsolarSky& s) { return s.any(); });
+}
+
+CircumsolarMixture::CircumsolarMixture(std::span<const CircumsolarSky> all, std::size_t first,
+                                       std::size_t count)
+    : first_(first), count_(count) {
+  SUNLOAD_EXPECT(count <= block_width, "no more skies than suns of a block");
+  const auto skies = all.subspan(first, count);
+  const auto with_light = static_cast<double>(std::ranges::count_if(skies, &CircumsolarSky::any));
+  if (with_light == 0) return;
+  sky_.strength_ = with_light;
+  constexpr std::uint32_t no_more = std::numeric_limits<std::uint32_t>::max();
+  std::array<std::size_t, block_width> at{};  // of each sky, the next of its cells
+  const auto next_cell = [&](std::size_t k) {
+    return at[k] < skies[k].place_.size() ? skies[k].place_[at[k]] : no_more;
+  };
+  std::array<double, block_width> squares{};  // Σ share² / S of each sky
+  for (;;) {
+    std::size_t next = 0;
+    for (std::size_t k = 1; k < count; ++k)
+      if (next_cell(k) < next_cell(next)) next = k;
+    const std::uint32_t cell = next_cell(next);
+    if (cell == no_more) break;
+    const std::size_t place_in_next = at[next];
+    std::array<double, block_width> share{};
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k)
+      if (next_cell(k) == cell)
+        sum += share[k] = static_cast<double>(skies[k].brightness_[at[k]++]);
+    sky_.cell_width_ = skies[next].cell_width_;
+    sky_.add_cell_of(skies[next], place_in_next, static_cast<float>(sum / with_light));
+    for (std::size_t k = 0; k < block_width; ++k) {
+      squares[k] += share[k] * share[k] / sum;
+      of_skies_.push_back(share[k] > 0 ? static_cast<float>(skies[k].strength() * share[k] / sum)
+                                       : 0);
+    }
+  }
+  sky_.find_cone();
+  // By samples of its own a sky has the mean square ∫ L²/L dω, by those of S it has ∫ L²/S dω.
+  constexpr double least_of_own = 0.25;
+  samples_needed_ = with_light * std::max(std::ranges::max(squares), least_of_own);
+}
+
+std::vector<CircumsolarMixture> circumsolar_mixtures(std::span<const CircumsolarSky> skies) {
+  // One by itself needs 1: what is nearly that is no gain, and wider mixtures look at more cells.
+  constexpr double worthwhile = 0.75;
+  std::vector<CircumsolarMixture> mixtures;
+  for (std::size_t k = 0; k < skies.size(); ++k) {
+    if (!mixtures.empty()) {
+      CircumsolarMixture& last = mixtures.back();
+      CircumsolarMixture with_it(skies, last.first(), last.count() + 1);
+      const double more = with_it.samples_needed() - last.samples_needed();
+      if (more < worthwhile || last.samples_needed() == 0) {
+        last = std::move(with_it);
+        continue;
+      }
+    }
+    mixtures.emplace_back(skies, k, 1);
+  }
+  return mixtures;
 }
 
 namespace {
@@ -160,7 +262,6 @@ namespace {
 
 /// What a sample is drawn by.
 struct Drawn {
-  alignas(64) std::uint32_t cell[packet_size];
   alignas(64) float u[packet_size], v[packet_size];  ///< uniform, later the place in the cell
   alignas(64) float q00[packet_size], q10[packet_size], q01[packet_size], q11[packet_size];
   alignas(64) float a[packet_size], b[packet_size];  ///< point of the grid's square
@@ -224,10 +325,10 @@ void CircumsolarView::sample(const ScrambledPoints& points, Samples& out) const 
     rest[s] = static_cast<std::uint32_t>(chosen);
   }
   Drawn drawn;
-  find_cells(sums_.data(), sums_.size(), at, drawn.cell);
+  find_cells(sums_.data(), sums_.size(), at, out.cell);
   for (std::size_t s = 0; s < packet_size; ++s) {
     // cppcheck-suppress uninitvar  // find_cells fills it
-    const std::uint32_t cell = drawn.cell[s];
+    const std::uint32_t cell = out.cell[s];
     // What is left of u after the choice of a cell is uniform again.
     const auto share = static_cast<std::uint32_t>(share_[cell]);
     drawn.u[s] = (static_cast<float>(at[s] - (sums_[cell] - share)) + uniform(rest[s])) /

@@ -53,15 +53,15 @@ void to_float(Vec3 v, float (&out)[3]) {
 
 SunSampler::SunSampler(const Hierarchy& hierarchy, const RayCaster& caster,
                        const DirectRules& rules)
-    : SunSampler(&hierarchy, nullptr, caster, rules) {}
+    : SunSampler(&hierarchy, nullptr, caster.offset_m(), rules) {}
 
 SunSampler::SunSampler(const std::vector<Sensor>& sensors, const RayCaster& caster,
                        const DirectRules& rules)
-    : SunSampler(nullptr, &sensors, caster, rules) {}
+    : SunSampler(nullptr, &sensors, caster.offset_m(), rules) {}
 
 SunSampler::SunSampler(const Hierarchy* hierarchy, const std::vector<Sensor>* sensors,
-                       const RayCaster& caster, const DirectRules& rules)
-    : hierarchy_(hierarchy), sensors_(sensors), offset_m_(caster.offset_m()), rules_(rules) {
+                       double offset_m, const DirectRules& rules)
+    : hierarchy_(hierarchy), sensors_(sensors), offset_m_(offset_m), rules_(rules) {
   SUNLOAD_EXPECT(rules.realizations >= 1 && rules.samples >= rules.realizations &&
                      rules.samples % rules.realizations == 0,
                  "direct samples are shared equally by the realizations");
@@ -76,6 +76,12 @@ SunSampler::SunSampler(const Hierarchy* hierarchy, const std::vector<Sensor>* se
   const auto points = static_cast<std::uint32_t>(net_size(rules.samples, rules.realizations));
   for (std::uint32_t s = 0; s < points; ++s)
     net_.push_back({sobol(s, 0), sobol(s, 1), sobol(s, 2), sobol(s, 3)});
+}
+
+SunSampler SunSampler::with_samples(std::size_t factor) const {
+  DirectRules rules = rules_;
+  rules.samples *= static_cast<int>(factor);
+  return {hierarchy_, sensors_, offset_m_, rules};
 }
 
 std::size_t SunSampler::receivers() const {

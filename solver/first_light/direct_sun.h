@@ -63,6 +63,9 @@ class SunSampler {
   /// `sensors` must outlive it.
   SunSampler(const std::vector<Sensor>& sensors, const RayCaster& caster, const DirectRules& rules);
 
+  /// The same receivers with so many times the samples.
+  SunSampler with_samples(std::size_t factor) const;
+
   std::size_t receivers() const;
   bool are_points() const { return sensors_ != nullptr; }
   /// Corners of a patch; three times the point of a sensor.
@@ -117,8 +120,8 @@ class SunSampler {
  private:
   ScrambledPoints origin_points(const Seeds& seeds, std::size_t packet) const;
   std::uint64_t key(std::size_t receiver) const;
-  SunSampler(const Hierarchy* hierarchy, const std::vector<Sensor>* sensors,
-             const RayCaster& caster, const DirectRules& rules);
+  SunSampler(const Hierarchy* hierarchy, const std::vector<Sensor>* sensors, double offset_m,
+             const DirectRules& rules);
 
   const Hierarchy* hierarchy_;  // one of the two
   const std::vector<Sensor>* sensors_;

@@ -189,6 +189,91 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
   }
 }
 
+std::vector<CircumsolarSky> skies_of(const std::vector<IntervalLight>& block) {
+  std::vector<CircumsolarSky> skies;
+  for (const IntervalLight& light : block) skies.emplace_back(grid, light);
+  return skies;
+}
+
+Vec3 sun_at_deg(double azimuth_deg, double elevation_deg) {
+  const double a = radians(azimuth_deg), e = radians(elevation_deg);
+  return {std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), std::sin(e)};
+}
+
+// As many suns as one like it, where they stand together; each by itself where they are far apart.
+TEST(Circumsolar, NeighboursShareSamples) {
+  const auto needed = [](const std::vector<Vec3>& suns) {
+    std::vector<IntervalLight> block;
+    for (const Vec3 sun : suns) block.push_back(sky_light(SkyModel::perez, 700, sun));
+    double sum = 0;
+    for (const auto& mixture : circumsolar_mixtures(skies_of(block)))
+      sum += mixture.samples_needed();
+    return sum;
+  };
+  EXPECT_NEAR(needed({low_sun}), 1, 1e-6);
+  EXPECT_NEAR(needed({low_sun, low_sun, low_sun}), 1, 1e-6);
+  EXPECT_NEAR(needed(std::vector<Vec3>(16, low_sun)), 4, 1e-6);  // a quarter
+  EXPECT_NEAR(needed({sun_at_deg(90, 20), sun_at_deg(270, 20)}), 2, 1e-6);
+  const double near = needed({sun_at_deg(90, 20), sun_at_deg(93, 22), sun_at_deg(95, 23)});
+  EXPECT_GT(near, 1.02);
+  EXPECT_LT(near, 2);
+  // An overcast sky between them has none, and is in nobody's way.
+  const auto mixtures = circumsolar_mixtures(
+      skies_of({clear_sky(), sky_light(SkyModel::cie_overcast, 0), clear_sky()}));
+  ASSERT_EQ(mixtures.size(), 1u);
+  EXPECT_EQ(mixtures[0].count(), 3u);
+  EXPECT_NEAR(mixtures[0].samples_needed(), 1, 1e-6);
+  EXPECT_TRUE(circumsolar_mixtures({}).empty());
+}
+
+// Suns of a block, near and far, strong and weak: each has its own light, from whichever samples,
+// also where half of the sky is behind the surface.
+TEST(Circumsolar, OfEachSunOfABlockIsExact) {
+  const std::vector<IntervalLight> block{sky_light(SkyModel::perez, 700, sun_at_deg(120, 18)),
+                                         sky_light(SkyModel::perez, 150, sun_at_deg(126, 21)),
+                                         sky_light(SkyModel::cie_overcast, 0, sun_at_deg(128, 22)),
+                                         sky_light(SkyModel::perez, 800, sun_at_deg(131, 24)),
+                                         sky_light(SkyModel::perez, 600, sun_at_deg(250, 9))};
+  const auto skies = skies_of(block);
+  ASSERT_FALSE(skies[2].any());
+  const std::size_t mixtures = circumsolar_mixtures(skies).size();
+  EXPECT_GT(mixtures, 1u);
+  EXPECT_LT(mixtures, 4u);
+  for (const Vec3 n : {Vec3{0, 0, 1}, normalized({0.6, -0.75, 0}), normalized({-0.5, -0.5, 0.3})}) {
+    SceneBuilder builder;
+    const Tangents plane = tangents(n);
+    builder.quad({0, 0, 0}, plane.tangent, plane.tangent + plane.bitangent, plane.bitangent,
+                 builder.material({"m", 0, 0, 0}));
+    SolverRules rules = test_rules();
+    rules.realizations = 64;
+    rules.lines_per_patch = rules.realizations * 16;
+    rules.direct_samples = rules.realizations * 64;
+    Watch watch;
+    const auto traced = trace_scene(builder.scene(), SplitRules{}, rules, watch);
+    const SunSampler sampler(traced->hierarchy(), traced->caster,
+                             {rules.direct_samples, rules.realizations, 1});
+    std::vector<Columns> realizations(64, columns(2));
+    Columns pooled = columns(2);
+    circumsolar_light(traced->caster, sampler, block, skies, {pooled, 64, {}, &realizations});
+    for (std::size_t k = 0; k < block.size(); ++k) {
+      std::vector<double> radiance(block[k].sky.size());
+      for (std::size_t c = 0; c < radiance.size(); ++c) radiance[c] = skies[k].radiance(c);
+      const double truth = unshaded(radiance, n);
+      std::vector<double> means;
+      for (const Columns& E : realizations)
+        means.push_back(static_cast<double>(E[k] + E[block_width + k]) / 2);
+      if (truth <= 0) {
+        EXPECT_EQ(mean_error(means).mean, 0) << k;
+        continue;
+      }
+      const Verdict verdict = expect_mean(means, truth, float_rounding * truth);
+      std::cout << k << " " << verdict.text << "\n";
+      EXPECT_TRUE(verdict) << k << " " << verdict.text;
+      EXPECT_FALSE(expect_mean(means, truth * 1.1, float_rounding * truth));
+    }
+  }
+}
+
 /// Blocks in front of each other, with a mirror, under a clear sky.
 TEST(Circumsolar, ClosesTheLedger) {
   SceneBuilder builder;

@@ -40,7 +40,9 @@ TEST(CostModel, PageHasTheTimesOfTheProgram) {
                     micro_s(s_per_level)),
         fmt::format("| patches · suns · {} (share that faces the sun) | {} |", facing_share,
                     micro_s(s_per_lit_share)),
-        fmt::format("| {} · patches · *lit* that shine · direct_samples | {} |", facing_share,
+        fmt::format("| {} · patches · *lit* that shine · direct_samples · {} … 1 by their distance "
+                    "(up to {}°) | {} |",
+                    facing_share, rays_in_one_place, degrees_to_share_rays,
                     micro_s(s_per_circumsolar_ray)),
         fmt::format("| {0} · suns · direct_samples · (sensors, {1} of mirrors' patches, if these "
                     "are more than a tenth; {1} of all by a disk, {2} by screens) | {3} |",
