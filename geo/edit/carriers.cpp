@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geo/base/units.h"
+#include "geo/mesh/plan_lines.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -47,6 +48,7 @@ struct BuildingPart {
   std::size_t place;
   std::vector<LooseFace> leaning;
   struct LowerEdge {
+    Segment ends;
     Vec3 middle, across;  ///< away from the wall, level, of unit length
     double length_m;
   };
@@ -70,17 +72,20 @@ BuildingPart building_part(const PolygonModel& model, std::size_t place) {
       const double length = std::hypot(way.x, way.y);
       constexpr double shortest_m = 1e-3;
       if (length < shortest_m || cross(area, way).z <= 0) continue;  // the wall is not above it
-      part.lower.push_back({a + way * 0.5, Vec3{way.y, -way.x, 0} / length, length});
+      part.lower.push_back({{a, a + way}, a + way * 0.5, Vec3{way.y, -way.x, 0} / length, length});
     }
   }
   // Of walls one above the other the lower edges of the upper ones are none of the part's.
-  const auto all = part.lower;
+  std::vector<Segment> lines;
+  for (const auto& edge : part.lower) lines.push_back(edge.ends);
+  const PlanLines all(lines);
   std::erase_if(part.lower, [&](const auto& edge) {
-    return std::ranges::any_of(all, [&](const auto& other) {
-      constexpr double beside_m = 0.05;
-      return other.middle.z < edge.middle.z - beside_m &&
-             std::hypot(other.middle.x - edge.middle.x, other.middle.y - edge.middle.y) < beside_m;
+    constexpr double beside_m = 0.05;
+    bool is_on_wall = false;
+    all.visit_within(edge.middle.x, edge.middle.y, beside_m, [&](const NearestOnLine& below) {
+      is_on_wall = is_on_wall || below.z < edge.middle.z - beside_m;
     });
+    return is_on_wall;
   });
   return part;
 }
@@ -111,10 +116,20 @@ double share_on(const BuildingPart& upper, const BuildingPart& lower, double foo
   return all > 0 ? on / all : 0;
 }
 
-/// Of parts of one building those that stand on another one, the lowest first.
+/// Whether in plan one is about as large as what it stands on.
+bool covers(const Box& upper, const Box& lower) {
+  constexpr double nearly_all = 0.9;
+  const Vec3 over{std::min(upper.high.x, lower.high.x) - std::max(upper.low.x, lower.low.x),
+                  std::min(upper.high.y, lower.high.y) - std::max(upper.low.y, lower.low.y), 0};
+  const Vec3 whole = lower.high - lower.low;
+  return over.x > 0 && over.y > 0 && over.x * over.y > nearly_all * whole.x * whole.y;
+}
+
+/// Of bodies of one building those that stand on another one, the lowest first.
 void find_stacked(const PolygonModel& model, std::vector<std::size_t> places,
-                  const std::vector<ObjectExtent>& extents,
-                  std::vector<std::optional<std::size_t>>& carriers) {
+                  const std::vector<ObjectExtent>& extents, std::optional<double> from_m,
+                  Carriers& carriers) {
+  if (places.size() < 2) return;
   std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
     return extents[a].box.low.z < extents[b].box.low.z;
   });
@@ -125,39 +140,52 @@ void find_stacked(const PolygonModel& model, std::vector<std::size_t> places,
     double most = 0.5;
     for (std::size_t l = 0; l < u; ++l) {
       const std::size_t lower = parts[l].place;
-      const double share = share_on(parts[u], parts[l], extents[lower].box.low.z);
+      const Box& box = extents[lower].box;
+      if (from_m && box.high.z < box.low.z + *from_m) continue;
+      const double share = share_on(parts[u], parts[l], box.low.z);
       if (share <= most) continue;
       most = share;
-      carriers[parts[u].place] = carriers[lower] ? carriers[lower] : lower;
+      const bool is_covered = covers(extents[parts[u].place].box, box);
+      if (is_covered) carriers.is_covered[lower] = 1;
+      const auto carrier = carriers.of[lower] ? carriers.of[lower] : lower;
+      carriers.of[parts[u].place] = is_covered ? carriers.of[lower] : carrier;
     }
   }
 }
 
 }  // namespace
 
-std::vector<std::optional<std::size_t>> carriers_of(const FamilyTree& tree,
-                                                    const PolygonModel& model,
-                                                    const ChosenObjects& chosen) {
+Carriers carriers_of(const FamilyTree& tree, const PolygonModel& model, const ChosenObjects& chosen,
+                     std::optional<double> from_m) {
   const auto extents = extents_of(model);
   const auto tops = tops_of(tree);
   std::map<std::size_t, std::vector<std::size_t>> parts;  // by their topmost
   for (std::size_t o = 0; o < chosen.size(); ++o)
     if (chosen[o] != 0 && is_part_of_body(tree.kind(o))) parts[tops[o]].push_back(o);
-  std::vector<std::optional<std::size_t>> carriers(chosen.size());
-  for (const auto& [top, of_building] : parts) find_stacked(model, of_building, extents, carriers);
+  Carriers carriers{std::vector<std::optional<std::size_t>>(chosen.size()),
+                    ChosenObjects(chosen.size(), 0)};
+  for (const auto& [top, of_building] : parts) {
+    auto bodies = of_building;
+    if (top < chosen.size() && chosen[top] != 0 && !is_part_of_body(tree.kind(top)))
+      bodies.push_back(top);  // it has surfaces of its own
+    find_stacked(model, bodies, extents, from_m, carriers);
+  }
   for (const std::size_t place : tree.owners_first()) {
     if (place >= chosen.size() || chosen[place] == 0 || is_part_of_body(tree.kind(place))) continue;
     auto owner = body_owner(tree, place);
     if (!owner) continue;
     while (owner && (*owner >= chosen.size() || chosen[*owner] == 0))
       owner = body_owner(tree, *owner);
-    if (owner)
-      carriers[place] = carriers[*owner] ? carriers[*owner] : owner;
-    else if (const auto found = parts.find(tops[place]); found != parts.end()) {
-      const auto part =
-          nearest_in_plan(found->second, plan_point(extents[place].middle()), extents);
-      carriers[place] = part && carriers[*part] ? carriers[*part] : part;
-    }
+    if (!owner)
+      if (const auto found = parts.find(tops[place]); found != parts.end())
+        owner = nearest_in_plan(found->second, plan_point(extents[place].middle()), extents);
+    if (owner) carriers.of[place] = carriers.of[*owner] ? carriers.of[*owner] : owner;
+  }
+  // What sits on a body that stays does so, too; a part beside what covers it is raised by itself.
+  for (std::size_t o = 0; o < chosen.size(); ++o) {
+    if (!carriers.of[o] || carriers.is_covered[*carriers.of[o]] == 0) continue;
+    if (!is_part_of_body(tree.kind(o))) carriers.is_covered[o] = 1;
+    carriers.of[o].reset();
   }
   return carriers;
 }

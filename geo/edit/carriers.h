@@ -12,13 +12,19 @@
 
 namespace sunload {
 
-/// Of each chosen object the chosen body that it sits on. What belongs to a building without
-/// surfaces sits on the nearest of its parts in plan; of several at one place on the smallest.
-/// Parts of buildings are bodies, as is what belongs to nothing that is chosen: these have none,
-/// but for parts that stand on the roof of another chosen part of their building (towers of lifts,
-/// dormers), by more than half of the lower edges of their walls.
-std::vector<std::optional<std::size_t>> carriers_of(const FamilyTree& tree,
-                                                    const PolygonModel& model,
-                                                    const ChosenObjects& chosen);
+/// What sits on what, of the chosen objects.
+struct Carriers {
+  /// Of each object the body that it sits on, and is lifted with; bodies have none.
+  std::vector<std::optional<std::size_t>> of;
+  /// Bodies that another one covers (cellars, lower storeys): they stay, that one is raised.
+  ChosenObjects is_covered;
+};
+/// What belongs to a building without surfaces sits on the nearest of its parts in plan; of several
+/// at one place on the smallest. Parts of buildings are bodies, as is what belongs to nothing that
+/// is chosen: these sit on nothing, but for parts that stand on the roof of another chosen body of
+/// their building (towers of lifts, dormers), by more than half of the lower edges of their walls.
+/// `from_m`: what is no higher above its foot carries no part.
+Carriers carriers_of(const FamilyTree& tree, const PolygonModel& model, const ChosenObjects& chosen,
+                     std::optional<double> from_m = {});
 
 }  // namespace sunload

@@ -268,6 +268,12 @@ bool lift_with(PolygonModel& model, ObjectId object, const RaisedObject& body, d
   const auto faces = faces_of(model, object);
   const Levels levels = levels_of(faces);
   if (levels.top < body.level_m) return false;
+  // What stands there stands on it, whatever its file rounds.
+  constexpr double standing_m = 0.3;
+  if (levels.foot >= body.level_m - standing_m) {
+    lift(model, object, levels.foot, by_m);
+    return true;
+  }
   const auto leaning = leaning_of(faces);
   const bool leans_there = std::any_of(leaning.begin(), leaning.end(), [&](const Leaning& each) {
     return is_cut(*each.face, body.level_m);

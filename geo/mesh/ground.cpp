@@ -110,22 +110,19 @@ class GroundMaker {
     if (!is_plate()) find_rims();
     const PlanTriangles terrain(mesh_, terrain_);
     const RimLand between_rims(lines_.rims);
-    const auto is_elsewhere = [&](Vec3 foot) {
-      if (is_plate()) return false;
-      if (terrain.covers(foot)) return true;
-      // In a hole that the terrain has for the house: below its rim the foot is buried.
-      const auto land = between_rims.height_at(foot.x, foot.y);
-      return land && foot.z < *land - land_snap_m;
-    };
     for (const Foot& foot : feet_) {
       if (!stands(foot)) continue;
       for (const auto* edges : {&foot.edges, &foot.rims})
-        for (const Segment& edge : *edges)
-          if (!is_elsewhere((edge[0] + edge[1]) / 2)) add_line(edge, foot.body);
+        for (const Segment& edge : *edges) add_line(edge, foot.body, terrain, between_rims);
     }
   }
 
-  void add_line(Segment edge, std::int32_t body) {
+  void add_line(Segment edge, std::int32_t body, const PlanTriangles& terrain,
+                const RimLand& between_rims) {
+    if (!is_plate() && terrain.covers((edge[0] + edge[1]) / 2)) return;
+    // In a hole that the terrain has for the house, what lies below its rims is buried.
+    for (Vec3& end : edge)
+      if (const auto land = between_rims.height_at(end.x, end.y)) end.z = std::max(end.z, *land);
     if (level_z_)
       for (Vec3& end : edge) end.z = *level_z_;
     lines_.feet.push_back(edge);

@@ -13,10 +13,10 @@ namespace sunload {
 
 namespace {
 
-constexpr double widest_m = 100;  ///< of holes: the way to a rim
-constexpr double beside_m = 4;    ///< the nearest rim
-constexpr int directions = 8, most = 5;
-constexpr double least_m = 1e-6;  ///< of a distance: on the rim itself
+constexpr double widest_m = 100;         ///< of holes: the way to a rim
+constexpr double beside_m = 4;           ///< the nearest rim
+constexpr int directions = 8, most = 6;  // in a corner outside of terrain there are five
+constexpr double least_m = 1e-6;         ///< of a distance: on the rim itself
 
 }  // namespace
 

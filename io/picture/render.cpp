@@ -179,7 +179,7 @@ class Renderer {
 
   /// End of the scale for values of this result and of those that are compared with it.
   double largest(const ShownQuantity& shown) const {
-    double end = scale_end(rules_.largest, shown.sizes(), scene_.area());
+    double end = scale_end(rules_.largest, shown.sizes(), drawn_area(result_));
     for (const auto& path : rules_.same_scale) {
       ResultReader other(path, result_.band(),
                          result_.is_derived() ? Opens::derived_too : Opens::results);
@@ -188,9 +188,17 @@ class Renderer {
       if (theirs.units != shown.units)
         throw InputError({path}, shown.dataset + " is in " + theirs.units,
                          "the result drawn has it in " + shown.units);
-      end = std::max(end, scale_end({}, theirs.sizes(), other.doubles("patch_area")));
+      end = std::max(end, scale_end({}, theirs.sizes(), drawn_area(other)));
     }
     return end;
+  }
+  /// Of patches, without those that the picture is not of.
+  std::vector<double> drawn_area(const ResultReader& result) const {
+    std::vector<double> all = result.doubles("patch_area");
+    if (!rules_.parts.choose_patches()) return all;
+    std::vector<double> drawn(all.size(), 0);
+    for (const std::size_t i : chosen_patches(result, rules_.parts)) drawn[i] = all[i];
+    return drawn;
   }
 
   const PatchScene& scene() const { return scene_; }

@@ -158,7 +158,9 @@ class SceneEditor {
   void apply(const RaiseEdit& raise) {
     ChosenObjects all = chosen();
     if (raise.by_m == 0) return tell("raises by 0 m", names_of(all));
-    const auto carriers = carriers_of(tree(), model_, all);
+    const auto [carriers, is_covered] = carriers_of(tree(), model_, all, raise.from_m);
+    for (std::size_t o = 0; o < all.size(); ++o)
+      if (is_covered[o] != 0) all[o] = 0;
     ChosenObjects bodies = all;
     for (std::size_t o = 0; o < all.size(); ++o)
       if (carriers[o]) bodies[o] = 0;

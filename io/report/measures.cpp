@@ -279,6 +279,34 @@ std::vector<MeasureChange> measure_changes(const ResultReader& base, const Resul
   return changes;
 }
 
+namespace {
+
+/// Verdicts over surfaces of which the variant has more or fewer: what was built there counts.
+std::string other_areas_in_words(const ResultReader& base, const ResultReader& variant) {
+  constexpr double telling_share = 0.05;
+  constexpr std::size_t most_told = 4;
+  std::map<Key, MeasureRow> before;
+  for (const MeasureRow& row : measure_table(base, {})) before.emplace(key_of(row), row);
+  std::vector<std::string> others;
+  for (const MeasureRow& row : measure_table(variant, {})) {
+    const auto found = before.find(key_of(row));
+    if (found == before.end() || !has_verdict(row)) continue;
+    const double was = found->second.area_m2;
+    if (!(std::abs(row.area_m2 - was) > telling_share * was)) continue;
+    others.push_back(fmt::format("{} {} of {} ({:.4g} → {:.4g} m2)", row.kind, row.name,
+                                 row.measure, was, row.area_m2));
+  }
+  if (others.empty()) return {};
+  const std::size_t count = others.size();
+  others.resize(std::min(count, most_told));
+  return fmt::format(
+      "{} verdicts are over other surfaces in the variant than in the base: {}{}; --quantity "
+      "measure_NAME compares what both have",
+      count, fmt::join(others, ", "), count > most_told ? ", …" : "");
+}
+
+}  // namespace
+
 std::vector<std::string> notes_on_verdicts(const ResultReader& base, const ResultReader& variant) {
   std::vector<std::string> notes, of_other_years;
   const auto before = words_by_name(base), after = words_by_name(variant);
@@ -300,6 +328,8 @@ std::vector<std::string> notes_on_verdicts(const ResultReader& base, const Resul
             name, was.rule, parameters_text(was), is.rule, parameters_text(is)));
     }
   }
+  if (const auto words = other_areas_in_words(base, variant); !words.empty())
+    notes.push_back(words);
   if (!of_other_years.empty())
     notes.push_back(
         fmt::format("measures on the same day of different years are compared, whose sun's path is "

@@ -34,18 +34,19 @@ void expect_room_for(const WorkEstimate& work, PatchesAre patches, const std::st
     if (!problem.empty()) throw MachineError(problem);
 }
 
-InputError of_another_state(const WorkFolder& folder, const ResultState& is, const std::string& isa,
-                            const char* hint) {
+InputError of_another_state(const WorkFolder& folder, const ResultState& is,
+                            const VariantPlan& plan, const char* hint) {
   const ResultReader result(folder.result());
   if (result.number_attribute("numerics_version") != numerics_version)
     return {{folder.result()},
             "is the result of another version of the program",
             "by " + result.text_attribute("source") + ", whose numbers are others",
             hint};
-  if (const std::string by = result.text_attribute("isa"); by != isa)
+  if (const std::string by = result.text_attribute("isa");
+      by != plan.isa && is.content_hash == hash_with_isa(plan, by))
     return {{folder.result()},
             "is the result of another instruction set",
-            "computed with " + by + ", this processor would use " + isa,
+            "computed with " + by + ", this processor would use " + plan.isa,
             "write solver: {isa: " + by + "} into the study to accept it; " + hint};
   const ResultState wanted = folder.wanted_state();
   const char* why =
@@ -102,8 +103,11 @@ void VariantJob::expect_may_merge() const {
   if (folder_.batches_not_there().empty())
     return refuse_other_state("use --overwrite to replace it");
   if (is_merged()) return;
-  if (folder_.state() && ResultReader(folder_.result()).text_attribute("isa") != plan_.isa)
-    return refuse_other_state("use --overwrite to replace it");
+  if (folder_.state() && !is_overwritten()) {
+    const std::string by = ResultReader(folder_.result()).text_attribute("isa");
+    if (by != plan_.isa && folder_.state()->content_hash == hash_with_isa(plan_, by))
+      return refuse_other_state("use --overwrite to replace it");
+  }
   if (const auto other = batches_of_other_isa())
     throw InputError({other->folder}, "holds batches of this study computed with " + other->isa,
                      "of " + plan_.isa + ", which this processor uses, some are missing",
@@ -115,7 +119,7 @@ void VariantJob::refuse_other_state(const char* hint) const {
   if (is_overwritten()) return;
   const auto state = folder_.state();
   if (state && state != folder_.wanted_state())
-    throw of_another_state(folder_, *state, plan_.isa, hint);
+    throw of_another_state(folder_, *state, plan_, hint);
 }
 
 std::optional<VariantJob::OfOtherIsa> VariantJob::batches_of_other_isa() const {

@@ -179,7 +179,9 @@ void VariantRun::tell_reduction(const TracedSeason& season) const {
   if (reduction->is_met)
     progress_.say(plan_.study.variant + ": " + text);
   else
-    warn(text + ", more than the third that is aimed at; solver.year: each has no such error");
+    warn(text +
+         ", and is not surely below the third that is aimed at; solver.year: each has no such "
+         "error");
 }
 
 void VariantRun::warn_of_sensors() {

@@ -5,7 +5,9 @@
 import argparse
 import contextlib
 import csv
+import errno
 import os
+import shutil
 import signal
 import sys
 
@@ -146,12 +148,20 @@ def add_targets(p, sensors=True):
 @contextlib.contextmanager
 def written_aside(path):
     """A name to write to, which becomes `path` where all is well: what was there before is not lost on a full disk.
-    Errors of writing, which name no file, get the name."""
+    Errors of writing, which name no file, get the name. What is no file (/dev/null, a pipe), and a file in a folder where
+    nothing can be made, are written to as they are."""
     target = os.path.realpath(path)   # links stay
-    stem, ending = os.path.splitext(target)
-    aside = f"{stem}.part-{os.getpid()}{ending}"
+    is_there = os.path.exists(target)
+    if is_there and (not os.path.isfile(target) or not os.access(os.path.dirname(target), os.W_OK)):
+        yield path
+        return
+    aside = f"{target}.part-{os.getpid()}"
     try:
+        if is_there and not os.access(target, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
         yield aside
+        if is_there:
+            shutil.copymode(target, aside)
         os.replace(aside, target)
     except OSError as error:
         raise OSError(error.errno, error.strerror or str(error), path) from error
@@ -162,9 +172,12 @@ def written_aside(path):
 
 def save(figure, path, dpi):
     try:
-        metadata = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(os.path.splitext(path)[1].lower())
+        ending = os.path.splitext(path)[1].lower()
+        if not ending:
+            raise ValueError("it has no ending")
+        metadata = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(ending)
         with written_aside(path) as aside:
-            figure.savefig(aside, dpi=dpi, metadata=metadata)
+            figure.savefig(aside, dpi=dpi, metadata=metadata, format=ending[1:])
     except ValueError as error:
         raise InputError(f"{path}: {error}; end the name in .png, .pdf or .svg") from error
     finally:
@@ -192,10 +205,6 @@ def write_csv(path, rows):
         csv.writer(file, lineterminator="\n").writerows([csv_cell(cell) for cell in row] for row in rows)
     if path == "-":
         write(sys.stdout)
-        return
-    if os.path.exists(path) and not os.path.isfile(path):   # a pipe, /dev/null
-        with open(path, "w", encoding="utf-8", newline="") as file:
-            write(file)
         return
     with written_aside(path) as aside, open(aside, "w", encoding="utf-8", newline="") as file:
         write(file)

@@ -108,6 +108,7 @@ Squares mean_squares(const std::vector<ReductionTest>& made, const NodeLight& no
 /// itself taken in. A few hours may have most of the error (low suns on snow), and the nodes that
 /// the tests like best are those that come near to the tests.
 bool is_met(const Squares& mean, std::size_t intervals) {
+  if (mean.standard_error <= 0) return true;  // nothing is by chance there
   const auto n = static_cast<double>(intervals);
   const double variance = std::max(0.0, mean.error2 - mean.error * mean.error);
   const double error_of_mean = n > 1 ? std::sqrt(variance / (n - 1)) : 0;

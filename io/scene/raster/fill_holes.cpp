@@ -53,9 +53,18 @@ void look(const Raster& raster, Step step, const Visit& visit) {
   }
 }
 
-/// What has been seen from a cell.
-struct Sum {
+/// A mean of values, each with a weight.
+struct Mean {
   double weighed = 0, weights = 0;
+  void add(double value, double weight) {
+    weighed += weight * value;
+    weights += weight;
+  }
+};
+/// What has been seen from a cell: by all, and by lines that end at data both ways, which go on
+/// with planes as they are.
+struct Sum {
+  Mean all, both_ways;
   int count = 0;
 };
 
@@ -72,22 +81,37 @@ std::size_t fill_holes(Raster& raster, const std::function<bool(std::size_t)>& i
   if (cells.empty()) return 0;
   const auto& g = raster.file_from_cell;
   std::vector<Sum> sums(cells.size());
-  for (const Step step : about) {
+  std::vector<Seen> ahead(cells.size());
+  constexpr std::size_t half = about.size() / 2;
+  for (std::size_t line = 0; line < half; ++line) {
+    const Step step = about[line], back = about[line + half];
     const double length =
         std::hypot(step.columns * g[1] + step.rows * g[2], step.columns * g[4] + step.rows * g[5]);
-    look(raster, step, [&](std::size_t cell, const Seen& seen) {
-      if (number[cell] == 0 || seen.steps < 0) return;
-      Sum& sum = sums[number[cell] - 1];
-      const double weight = 1 / (seen.steps * length);
-      sum.weighed += weight * seen.value;
-      sum.weights += weight;
+    const auto take = [&](Sum& sum, const Seen& seen) {
+      if (seen.steps < 0) return;
+      sum.all.add(seen.value, 1 / (seen.steps * length));
       ++sum.count;
+    };
+    look(raster, step, [&](std::size_t cell, const Seen& seen) {
+      if (number[cell] == 0) return;
+      ahead[number[cell] - 1] = seen;
+      take(sums[number[cell] - 1], seen);
+    });
+    look(raster, back, [&](std::size_t cell, const Seen& seen) {
+      if (number[cell] == 0) return;
+      Sum& sum = sums[number[cell] - 1];
+      take(sum, seen);
+      const Seen& other = ahead[number[cell] - 1];
+      if (seen.steps < 0 || other.steps < 0) return;
+      sum.both_ways.add(seen.value, 1 / (seen.steps * length));
+      sum.both_ways.add(other.value, 1 / (other.steps * length));
     });
   }
   std::size_t filled = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (sums[i].count < most) continue;
-    raster.values[cells[i]] = sums[i].weighed / sums[i].weights;
+    const Mean& mean = sums[i].both_ways.weights > 0 ? sums[i].both_ways : sums[i].all;
+    raster.values[cells[i]] = mean.weighed / mean.weights;
     ++filled;
   }
   return filled;

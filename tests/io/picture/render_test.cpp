@@ -547,6 +547,22 @@ TEST(Render, PicturesThatAreComparedShareTheirScale) {
   EXPECT_EQ(bytes_of(picture_path("shared")), bytes_of(picture_path("limit")));
 }
 
+TEST(Render, ScalesAreOfWhatIsDrawn) {
+  SmallResult dark_house;
+  dark_house.load = [](const std::string& object, Vec3, std::size_t) {
+    return object == "house_1" ? 3 : 400;
+  };
+  const ResultReader result(write_small_result(dark_house, "render_part_scale"));
+  RenderRules rules;
+  rules.width = 480;
+  rules.height = 320;
+  rules.parts.objects = {"house_1"};
+  render_png(result, rules, picture_path("part"));
+  rules.largest = 3;
+  render_png(result, rules, picture_path("part_limit"));
+  EXPECT_EQ(bytes_of(picture_path("part")), bytes_of(picture_path("part_limit")));
+}
+
 TEST(Render, RefusesWhatTheResultDoesNotHave) {
   const ResultReader result(write_small_result(SmallResult{}, "render_refuses"));
   const auto path = picture_path("render_refuses");

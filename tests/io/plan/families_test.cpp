@@ -82,6 +82,45 @@ class Families : public testing::Test {
   const Names of_hall_{"hall_low", "hall_high", "chimney"};
 };
 
+/// Cellars and storeys: what is above them is raised, and windows stay where they are.
+TEST_F(Families, APartThatAnotherCoversStays) {
+  const std::string part = R"("parents":["house"])";
+  folder_.write("town.city.json",
+                FamilyTown()
+                    .add_bare("house", "Building", R"("children":["cellar","storey","top","lift"])")
+                    .add("cellar", "BuildingPart", part, {0, 0, -3}, {20, 12, 0})
+                    .add("storey", "BuildingPart", part, {0, 0, 0}, {20, 12, 4})
+                    .add("top", "BuildingPart", part, {0, 0, 4}, {20, 12, 12})
+                    .add("lift", "BuildingPart", part, {4, 4, 12}, {8, 8, 15})
+                    .text());
+  EXPECT_EQ(
+      heights(model("{object: house, raise: {by_m: 3}}")),
+      (Heights{{"cellar", {-3, 0}}, {"storey", {0, 4}}, {"top", {4, 15}}, {"lift", {15, 18}}}));
+}
+
+TEST_F(Families, APartThatEndsBelowFromMCarriesNone) {
+  const std::string part = R"("parents":["house"])";
+  folder_.write("town.city.json",
+                FamilyTown()
+                    .add_bare("house", "Building", R"("children":["podium","tower","wing"])")
+                    .add("podium", "BuildingPart", part, {0, 0, 0}, {40, 30, 5})
+                    .add("tower", "BuildingPart", part, {5, 5, 5}, {15, 15, 35})
+                    .add("wing", "BuildingPart", part, {40, 0, 0}, {50, 30, 20})
+                    .text());
+  EXPECT_EQ(heights(model("{object: house, raise: {by_m: 3, from_m: 10}}")),
+            (Heights{{"podium", {0, 5}}, {"tower", {5, 38}}, {"wing", {0, 23}}}));
+}
+
+TEST_F(Families, APartOnTheRoofOfAHouseOfItsOwnShapeRisesWithIt) {
+  folder_.write("town.city.json",
+                FamilyTown()
+                    .add("house", "Building", R"("children":["tower"])", {0, 0, 0}, {20, 12, 10})
+                    .add("tower", "BuildingPart", R"("parents":["house"])", {4, 4, 10}, {8, 8, 13})
+                    .text());
+  EXPECT_EQ(heights(model("{object: house, raise: {by_m: -1}}")),
+            (Heights{{"house", {0, 9}}, {"tower", {9, 12}}}));
+}
+
 TEST_F(Families, PartsThatStandOnAPartRiseWithIt) {
   const auto part = [](const char* of) { return std::string(R"("parents":[")") + of + R"("])"; };
   folder_.write("town.city.json",

@@ -238,6 +238,20 @@ TEST(CompareQuantity, VerdictsOfTheSameDayInOtherYearsAreComparedWithANote) {
   EXPECT_TRUE(has(refused.front(), "2026-03-22, least_h 2) in the variant")) << refused.front();
 }
 
+TEST(CompareQuantity, VerdictsOverOtherSurfacesAreTold) {
+  const ResultReader base(write_small_result(measured("base", "", 3), "verdict_area_base"));
+  SmallResult larger = measured("variant", "", 3);
+  larger.houses.back().high = {12, 8, 30};
+  const ResultReader variant(write_small_result(larger, "verdict_area_variant"));
+  EXPECT_TRUE(notes_on_verdicts(base, base).empty());
+  const auto notes = notes_on_verdicts(base, variant);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(has(notes.front(),
+                  "5 verdicts are over other surfaces in the variant than in the "
+                  "base: object house_2 of sun ("))
+      << notes.front();
+}
+
 TEST(CompareQuantity, CountsOfARuleTellWhatTheyAreOf) {
   const ResultReader base(write_small_result(measured("base", "", 3), "counts_base"));
   const ResultReader variant(write_small_result(measured("other", "", 0.5), "counts_other"));
