@@ -285,6 +285,7 @@ namespace {
 std::string other_areas_in_words(const ResultReader& base, const ResultReader& variant) {
   constexpr double telling_share = 0.05;
   constexpr std::size_t most_told = 4;
+  if (measure_names(base).empty() || measure_names(variant).empty()) return {};
   std::map<Key, MeasureRow> before;
   for (const MeasureRow& row : measure_table(base, {})) before.emplace(key_of(row), row);
   std::vector<std::string> others;
