@@ -10,6 +10,7 @@
 #include <cmath>
 #include <ctime>
 #include <iostream>
+#include <memory>
 
 #include "io/plan/interval_lights.h"
 #include "io/plan/rules_of_study.h"
@@ -150,6 +151,28 @@ double unshaded(const std::vector<double>& radiance, Vec3 normal) {
   return sum * grid.solid_angle() / (n * n);
 }
 
+/// An open square of that normal, traced; so many samples for each of 64 realizations.
+constexpr int plate_realizations = 64;
+struct Plate {
+  Plate(Vec3 normal, int samples) {
+    const Tangents plane = tangents(normal);
+    builder.quad({0, 0, 0}, plane.tangent, plane.tangent + plane.bitangent, plane.bitangent,
+                 builder.material({"m", 0, 0, 0}));
+    rules.realizations = plate_realizations;
+    rules.lines_per_patch = plate_realizations * 16;
+    rules.direct_samples = plate_realizations * samples;
+    traced = trace_scene(builder.scene(), SplitRules{}, rules, watch);
+  }
+  SunSampler sampler() const {
+    return {traced->hierarchy(), traced->caster, {rules.direct_samples, rules.realizations, 1}};
+  }
+
+  SceneBuilder builder;
+  SolverRules rules = test_rules();
+  Watch watch;
+  std::unique_ptr<TracedScene> traced;
+};
+
 // Open plates of all tilts, towards the sun and away, with the sun in their plane: half of the
 // circumsolar light is behind them then.
 TEST(Circumsolar, OnOpenPlatesIsExact) {
@@ -161,23 +184,13 @@ TEST(Circumsolar, OnOpenPlatesIsExact) {
   for (const Vec3 n :
        {Vec3{0, 0, 1}, low_sun, axes.tangent, normalized(axes.bitangent + 0.1 * low_sun),
         normalized(-0.2 * low_sun + axes.tangent), normalized({0.6, -0.75, 0})}) {
-    SceneBuilder builder;
-    const Tangents plane = tangents(n);
-    builder.quad({0, 0, 0}, plane.tangent, plane.tangent + plane.bitangent, plane.bitangent,
-                 builder.material({"m", 0, 0, 0}));
-    SolverRules rules = test_rules();
-    rules.realizations = 64;
-    rules.lines_per_patch = rules.realizations * 16;
-    rules.direct_samples = rules.realizations * 256;
-    Watch watch;
-    const auto traced = trace_scene(builder.scene(), SplitRules{}, rules, watch);
-    const SunSampler sampler(traced->hierarchy(), traced->caster,
-                             {rules.direct_samples, rules.realizations, 1});
+    const Plate plate(n, 256);
+    const SunSampler sampler = plate.sampler();
     std::vector<std::vector<double>> exposure(64, std::vector<double>(2, 0));
     Columns direct = columns(2), circumsolar_sum = columns(2), sunlit = columns(2);
     const std::vector<IntervalLight> block{light};
-    direct_sun(traced->caster, sampler, block, {direct, 64}, sunlit);
-    circumsolar_light(traced->caster, sampler, block, {sky},
+    direct_sun(plate.traced->caster, sampler, block, {direct, 64}, sunlit);
+    circumsolar_light(plate.traced->caster, sampler, block, {sky},
                       {circumsolar_sum, 64, {{&exposure, lengths_of(block)}}});
     std::vector<double> means;
     for (const auto& E : exposure) means.push_back((E[0] + E[1]) / 2);
@@ -240,21 +253,11 @@ TEST(Circumsolar, OfEachSunOfABlockIsExact) {
   EXPECT_GT(mixtures, 1u);
   EXPECT_LT(mixtures, 4u);
   for (const Vec3 n : {Vec3{0, 0, 1}, normalized({0.6, -0.75, 0}), normalized({-0.5, -0.5, 0.3})}) {
-    SceneBuilder builder;
-    const Tangents plane = tangents(n);
-    builder.quad({0, 0, 0}, plane.tangent, plane.tangent + plane.bitangent, plane.bitangent,
-                 builder.material({"m", 0, 0, 0}));
-    SolverRules rules = test_rules();
-    rules.realizations = 64;
-    rules.lines_per_patch = rules.realizations * 16;
-    rules.direct_samples = rules.realizations * 64;
-    Watch watch;
-    const auto traced = trace_scene(builder.scene(), SplitRules{}, rules, watch);
-    const SunSampler sampler(traced->hierarchy(), traced->caster,
-                             {rules.direct_samples, rules.realizations, 1});
+    const Plate plate(n, 64);
+    const SunSampler sampler = plate.sampler();
     std::vector<Columns> realizations(64, columns(2));
     Columns pooled = columns(2);
-    circumsolar_light(traced->caster, sampler, block, skies, {pooled, 64, {}, &realizations});
+    circumsolar_light(plate.traced->caster, sampler, block, skies, {pooled, 64, {}, &realizations});
     for (std::size_t k = 0; k < block.size(); ++k) {
       std::vector<double> radiance(block[k].sky.size());
       for (std::size_t c = 0; c < radiance.size(); ++c) radiance[c] = skies[k].radiance(c);
