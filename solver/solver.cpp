@@ -36,7 +36,7 @@ std::vector<std::size_t> lit_rows(const TracedScene& traced, std::span<const Int
     if (traced.optics.any_emission || !batch[k].is_dark()) rows.push_back(k);
   const auto azimuth = [&](std::size_t k) {
     constexpr double behind_all = 2 * pi;
-    return batch[k].has_sun() ? std::atan2(batch[k].direction.x, batch[k].direction.y) : behind_all;
+    return batch[k].has_sun() ? place_in_batch(batch[k].direction) : behind_all;
   };
   std::stable_sort(rows.begin(), rows.end(),
                    [&](auto a, auto b) { return azimuth(a) < azimuth(b); });

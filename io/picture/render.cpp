@@ -163,6 +163,15 @@ SunTrack sun_track(const ResultReader& result) {
   return path;
 }
 
+/// Of patches, 0 of those that a picture of these parts is not of.
+std::vector<double> drawn_area(const ResultReader& result, const NamedParts& parts) {
+  std::vector<double> all = result.doubles("patch_area");
+  if (!parts.choose_patches()) return all;
+  std::vector<double> drawn(all.size(), 0);
+  for (const std::size_t i : chosen_patches(result, parts)) drawn[i] = all[i];
+  return drawn;
+}
+
 /// A result being drawn: what all pictures of it share.
 class Renderer {
  public:
@@ -171,6 +180,7 @@ class Renderer {
         rules_(rules),
         scene_(result),
         caster_(scene_.mesh()),
+        drawn_area_(drawn_area(result, rules.parts)),
         north_deg_(scene_north_deg(result)) {
     if (rules.parts.choose_patches()) place_ = scene_place(result, rules.parts);
     if (rules.eye.empty() && !rules.look.empty()) place_ = looked_at(result, rules.look);
@@ -179,7 +189,7 @@ class Renderer {
 
   /// End of the scale for values of this result and of those that are compared with it.
   double largest(const ShownQuantity& shown) const {
-    double end = scale_end(rules_.largest, shown.sizes(), drawn_area(result_));
+    double end = scale_end(rules_.largest, shown.sizes(), drawn_area_);
     for (const auto& path : rules_.same_scale) {
       ResultReader other(path, result_.band(),
                          result_.is_derived() ? Opens::derived_too : Opens::results);
@@ -188,19 +198,10 @@ class Renderer {
       if (theirs.units != shown.units)
         throw InputError({path}, shown.dataset + " is in " + theirs.units,
                          "the result drawn has it in " + shown.units);
-      end = std::max(end, scale_end({}, theirs.sizes(), drawn_area(other)));
+      end = std::max(end, scale_end({}, theirs.sizes(), drawn_area(other, rules_.parts)));
     }
     return end;
   }
-  /// Of patches, without those that the picture is not of.
-  std::vector<double> drawn_area(const ResultReader& result) const {
-    std::vector<double> all = result.doubles("patch_area");
-    if (!rules_.parts.choose_patches()) return all;
-    std::vector<double> drawn(all.size(), 0);
-    for (const std::size_t i : chosen_patches(result, rules_.parts)) drawn[i] = all[i];
-    return drawn;
-  }
-
   const PatchScene& scene() const { return scene_; }
 
   /// The scene by kinds of surface or by materials, as it is without any light.
@@ -241,7 +242,7 @@ class Renderer {
     const bool in_rgb = rules_.colours == PictureColours::of_bands;
     if (in_rgb) {
       auto bands =
-          colours_of_bands(result_, shown.dataset, rules_.time, rules_.largest, scene_.area());
+          colours_of_bands(result_, shown.dataset, rules_.time, rules_.largest, drawn_area_);
       colours.own = std::move(bands.of_patches);
       largest = bands.white;
     }
@@ -381,6 +382,7 @@ class Renderer {
   const RenderRules& rules_;
   PatchScene scene_;
   RayCaster caster_;
+  std::vector<double> drawn_area_;  ///< of patches
   double north_deg_;
   std::optional<ScenePlace> place_;  ///< what the picture is of, where somebody says so
   std::unique_ptr<ResultPatches> patches_;

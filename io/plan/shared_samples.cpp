@@ -33,8 +33,7 @@ double share_of_samples_drawn(const VariantPlan& plan) {
     for (std::size_t k = first; k < end; ++k)
       if (const auto& when = plan.light.intervals[k].when; when.sunlit_s > 0)
         of_batch.push_back(when.direction);
-    // As they are put into blocks (solver/solver.cpp).
-    std::ranges::stable_sort(of_batch, {}, [](Vec3 sun) { return std::atan2(sun.x, sun.y); });
+    std::ranges::stable_sort(of_batch, {}, place_in_batch);
     for (std::size_t k = 0; k < of_batch.size(); ++k)
       drawn += k % block_width == 0 ? 1 : drawn_beside(of_batch[k], of_batch[k - 1]);
     suns += static_cast<double>(of_batch.size());

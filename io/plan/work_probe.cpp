@@ -54,8 +54,7 @@ std::vector<std::size_t> intervals_in_order(const VariantPlan& plan) {
   }
   auto& order = sunlit.empty() ? lit : sunlit;
   const auto place = [&](std::size_t k) {
-    const Vec3& sun = plan.light.intervals[k].when.direction;
-    return std::pair{k / plan.batch_suns(), std::atan2(sun.x, sun.y)};
+    return std::pair{k / plan.batch_suns(), place_in_batch(plan.light.intervals[k].when.direction)};
   };
   std::ranges::sort(order, {}, place);
   return std::move(order);

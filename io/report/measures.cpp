@@ -260,21 +260,36 @@ std::string measures_line(const ResultReader& result) {
   return text;
 }
 
+namespace {
+
+struct BeforeAndAfter {
+  MeasureRow before, after;
+};
+/// Rows with a verdict of the variant that the base has, too; none where one has no measures.
+std::vector<BeforeAndAfter> verdicts_of_both(const ResultReader& base,
+                                             const ResultReader& variant) {
+  std::vector<BeforeAndAfter> pairs;
+  if (measure_names(base).empty() || measure_names(variant).empty()) return pairs;
+  std::map<Key, MeasureRow> before;
+  for (const MeasureRow& row : measure_table(base, {})) before.emplace(key_of(row), row);
+  for (const MeasureRow& row : measure_table(variant, {}))
+    if (const auto found = before.find(key_of(row)); found != before.end() && has_verdict(row))
+      pairs.push_back({found->second, row});
+  return pairs;
+}
+
+}  // namespace
+
 std::vector<MeasureChange> measure_changes(const ResultReader& base, const ResultReader& variant,
                                            const NamedParts& parts) {
   std::vector<MeasureChange> changes;
-  if (measure_names(base).empty() || measure_names(variant).empty()) return changes;
   const auto before_words = words_by_name(base), after_words = words_by_name(variant);
-  std::map<Key, MeasureRow> before;
-  for (const MeasureRow& row : measure_table(base, {})) before.emplace(key_of(row), row);
-  for (const MeasureRow& row : measure_table(variant, {})) {
-    const auto found = before.find(key_of(row));
-    if (found == before.end() || !has_verdict(row) || !is_chosen(row, parts)) continue;
+  for (const auto& [before, row] : verdicts_of_both(base, variant)) {
+    if (!is_chosen(row, parts)) continue;
     const MeasureWords& words = after_words.at(row.measure);
     if (likeness(before_words.at(row.measure), words) == Likeness::different) continue;
-    changes.push_back({row.measure, words.units, row.kind, row.name, found->second.reached,
-                       row.reached, found->second.level, row.level,
-                       change(words, found->second.level, row.level)});
+    changes.push_back({row.measure, words.units, row.kind, row.name, before.reached, row.reached,
+                       before.level, row.level, change(words, before.level, row.level)});
   }
   return changes;
 }
@@ -285,14 +300,9 @@ namespace {
 std::string other_areas_in_words(const ResultReader& base, const ResultReader& variant) {
   constexpr double telling_share = 0.05;
   constexpr std::size_t most_told = 4;
-  if (measure_names(base).empty() || measure_names(variant).empty()) return {};
-  std::map<Key, MeasureRow> before;
-  for (const MeasureRow& row : measure_table(base, {})) before.emplace(key_of(row), row);
   std::vector<std::string> others;
-  for (const MeasureRow& row : measure_table(variant, {})) {
-    const auto found = before.find(key_of(row));
-    if (found == before.end() || !has_verdict(row)) continue;
-    const double was = found->second.area_m2;
+  for (const auto& [before, row] : verdicts_of_both(base, variant)) {
+    const double was = before.area_m2;
     if (!(std::abs(row.area_m2 - was) > telling_share * was)) continue;
     others.push_back(fmt::format("{} {} of {} ({:.4g} → {:.4g} m2)", row.kind, row.name,
                                  row.measure, was, row.area_m2));

@@ -34,6 +34,12 @@ void expect_room_for(const WorkEstimate& work, PatchesAre patches, const std::st
     if (!problem.empty()) throw MachineError(problem);
 }
 
+/// Whether a result is of this very study, computed with another instruction set.
+bool is_of_other_isa(const ResultReader& result, const ResultState& is, const VariantPlan& plan) {
+  const std::string by = result.text_attribute("isa");
+  return by != plan.isa && is.content_hash == hash_with_isa(plan, by);
+}
+
 InputError of_another_state(const WorkFolder& folder, const ResultState& is,
                             const VariantPlan& plan, const char* hint) {
   const ResultReader result(folder.result());
@@ -42,12 +48,13 @@ InputError of_another_state(const WorkFolder& folder, const ResultState& is,
             "is the result of another version of the program",
             "by " + result.text_attribute("source") + ", whose numbers are others",
             hint};
-  if (const std::string by = result.text_attribute("isa");
-      by != plan.isa && is.content_hash == hash_with_isa(plan, by))
+  if (is_of_other_isa(result, is, plan)) {
+    const std::string by = result.text_attribute("isa");
     return {{folder.result()},
             "is the result of another instruction set",
             "computed with " + by + ", this processor would use " + plan.isa,
             "write solver: {isa: " + by + "} into the study to accept it; " + hint};
+  }
   const ResultState wanted = folder.wanted_state();
   const char* why =
       is.content_hash != wanted.content_hash
@@ -103,11 +110,9 @@ void VariantJob::expect_may_merge() const {
   if (folder_.batches_not_there().empty())
     return refuse_other_state("use --overwrite to replace it");
   if (is_merged()) return;
-  if (folder_.state() && !is_overwritten()) {
-    const std::string by = ResultReader(folder_.result()).text_attribute("isa");
-    if (by != plan_.isa && folder_.state()->content_hash == hash_with_isa(plan_, by))
-      return refuse_other_state("use --overwrite to replace it");
-  }
+  if (const auto state = folder_.state();
+      state && is_of_other_isa(ResultReader(folder_.result()), *state, plan_))
+    refuse_other_state("use --overwrite to replace it");
   if (const auto other = batches_of_other_isa())
     throw InputError({other->folder}, "holds batches of this study computed with " + other->isa,
                      "of " + plan_.isa + ", which this processor uses, some are missing",

@@ -110,14 +110,13 @@ class BlockReader {
   /// Many terrain models have no data below buildings.
   void fill_terrain() {
     const auto has_surface = [&](std::size_t cell) { return !std::isnan(surface_.values[cell]); };
-    const std::vector<double> measured = terrain_.values;
-    const std::size_t filled = fill_holes(terrain_, has_surface);
+    const std::vector<std::size_t> filled = fill_holes(terrain_, has_surface);
     // No land is above the surface: water, pits.
-    for (std::size_t cell = 0; cell < cell_count(); ++cell)
-      if (std::isnan(measured[cell]) && terrain_.values[cell] > surface_.values[cell])
-        terrain_.values[cell] = surface_.values[cell];
+    for (const std::size_t cell : filled)
+      terrain_.values[cell] = std::min(terrain_.values[cell], surface_.values[cell]);
     faces_.notes().count(
-        "cells without data in the terrain raster are filled from what is about them", filled);
+        "cells without data in the terrain raster are filled from what is about them",
+        filled.size());
     std::size_t bare = 0;
     for (std::size_t cell = 0; cell < cell_count(); ++cell)
       if (has_surface(cell) && std::isnan(terrain_.values[cell])) ++bare;

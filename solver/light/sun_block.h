@@ -19,6 +19,10 @@ namespace sunload {
 /// times as long per sun).
 inline constexpr std::size_t block_width = 16;
 
+/// Suns of a batch are put into blocks in the order of this [rad]: those that stand close together
+/// come side by side.
+inline double place_in_batch(Vec3 to_sun) { return std::atan2(to_sun.x, to_sun.y); }
+
 /// One of several suns that stand for an interval.
 struct SunSample {
   Vec3 direction;     ///< to it, scene frame, unit

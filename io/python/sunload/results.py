@@ -218,7 +218,8 @@ class Accessor:
         """A map of what is seen from above, higher patches over lower ones, by matplotlib; returns its axes. `time`: of
         a series, in UTC as all times of the dataset: the interval that holds it, the brightest where left out; the title
         tells it in civil time of the site. Of light in bands the mean of these. `ax`: the current axes while they are
-        empty, else new ones. Options go to PolyCollection. Raises ValueError for a time in no interval, and for one of a total."""
+        empty, else new ones. Options go to PolyCollection. Raises ValueError for a time in no interval, and for one of a
+        total."""
         from matplotlib import pyplot  # needed here alone
         from matplotlib.collections import PolyCollection
         result = self._result

@@ -70,7 +70,8 @@ struct Sum {
 
 }  // namespace
 
-std::size_t fill_holes(Raster& raster, const std::function<bool(std::size_t)>& is_wanted) {
+std::vector<std::size_t> fill_holes(Raster& raster,
+                                    const std::function<bool(std::size_t)>& is_wanted) {
   std::vector<std::uint32_t> number(raster.values.size(), 0);  // of a hole's cell, from 1
   std::vector<std::size_t> cells;
   for (std::size_t cell = 0; cell < number.size(); ++cell) {
@@ -78,7 +79,7 @@ std::size_t fill_holes(Raster& raster, const std::function<bool(std::size_t)>& i
     cells.push_back(cell);
     number[cell] = static_cast<std::uint32_t>(cells.size());
   }
-  if (cells.empty()) return 0;
+  if (cells.empty()) return {};
   const auto& g = raster.file_from_cell;
   std::vector<Sum> sums(cells.size());
   std::vector<Seen> ahead(cells.size());
@@ -107,12 +108,12 @@ std::size_t fill_holes(Raster& raster, const std::function<bool(std::size_t)>& i
       sum.both_ways.add(other.value, 1 / (other.steps * length));
     });
   }
-  std::size_t filled = 0;
+  std::vector<std::size_t> filled;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (sums[i].count < most) continue;
     const Mean& mean = sums[i].both_ways.weights > 0 ? sums[i].both_ways : sums[i].all;
     raster.values[cells[i]] = mean.weighed / mean.weights;
-    ++filled;
+    filled.push_back(cells[i]);
   }
   return filled;
 }

@@ -220,7 +220,7 @@ class FootprintReader {
     terrain_ = read_raster(rules_.terrain, map_unit_m(), RasterValues::elevations, notes_);
     // Many terrain models have no data below buildings.
     notes_.count("cells without data in the terrain are filled from what is about them",
-                 fill_holes(*terrain_, [](std::size_t) { return true; }));
+                 fill_holes(*terrain_, [](std::size_t) { return true; }).size());
   }
 
   void expect_terrain_of_the_map() const {
