@@ -18,8 +18,9 @@ namespace sunload {
 
 namespace {
 
-/// The same but for where faces lie: within its heights, its areas, and its radius.
+/// The same wherever faces lie: without its heights, its areas, its radius, and what it leaves out.
 NamedSelection without_ends(NamedSelection selection) {
+  selection.except.clear();
   SelectionStudy& of = selection.of;
   of.height_m.reset();
   of.polygon = {};
@@ -73,24 +74,34 @@ void leave_out_far_from(const std::vector<PlanArea>& areas, const Mesh& mesh,
   });
 }
 
+std::vector<PlanArea> areas_of(const NamedSelection& selection, const SceneFrame& frame) {
+  return areas_in_scene(selection.of.polygon, frame.crs, "selections." + selection.name,
+                        selection.where);
+}
+
+/// Of the selection and of what it leaves out.
+void add_planes(const NamedSelection& selection, const Mesh& mesh, const SceneFrame& frame,
+                std::vector<PlaneOfFace>& planes) {
+  if (selection.of.height_m)
+    for (const double height : *selection.of.height_m) planes.push_back(level_at(height, mesh));
+  for (const PlanArea& area : areas_of(selection, frame))
+    for (const auto& ring : area)
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Point2 from = ring[k], to = ring[k + 1 < ring.size() ? k + 1 : 0];
+        if (from.u != to.u || from.v != to.v) planes.push_back(wall_on(from, to, mesh));
+      }
+  for (const NamedSelection& other : selection.except) add_planes(other, mesh, frame, planes);
+}
+
 CutsOfSelection cuts_of(const NamedSelection& selection, const Mesh& mesh,
                         const SceneFrame& frame) {
   CutsOfSelection cuts;
   const ChosenParts chosen = selected_faces(without_ends(selection), mesh, frame);
   for (std::size_t t = 0; t < chosen.size(); ++t)
     if (chosen[t] != 0) cuts.faces.push_back(t);
-  if (selection.of.height_m)
-    for (const double height : *selection.of.height_m)
-      cuts.planes.push_back(level_at(height, mesh));
-  const auto areas = areas_in_scene(selection.of.polygon, frame.crs, "selections." + selection.name,
-                                    selection.where);
+  const auto areas = areas_of(selection, frame);
   if (!areas.empty()) leave_out_far_from(areas, mesh, cuts.faces);
-  for (const PlanArea& area : areas)
-    for (const auto& ring : area)
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Point2 from = ring[k], to = ring[k + 1 < ring.size() ? k + 1 : 0];
-        if (from.u != to.u || from.v != to.v) cuts.planes.push_back(wall_on(from, to, mesh));
-      }
+  add_planes(selection, mesh, frame, cuts.planes);
   return cuts;
 }
 
@@ -133,10 +144,6 @@ WholeTriangles whole_triangles(const AssignRule& rule, const Mesh& mesh, const S
   return sum;
 }
 
-bool has_ends(const SelectionStudy& selection) {
-  return selection.height_m || !selection.polygon.areas.empty();
-}
-
 }  // namespace
 
 void cut_at_selections(const SceneStudy& study, BuiltScene& built) {
@@ -165,7 +172,7 @@ std::string uncut_warning(const SceneStudy& study, const BuiltScene& built) {
   constexpr double worth_telling = 0.02;  // of the selection's area
   const SceneFrame frame{built.crs, built.site.north_deg};
   for (const AssignRule& rule : study.assign) {
-    if (!rule.selection || !has_ends(rule.selection->of)) continue;
+    if (!rule.selection || !rule.selection->has_ends()) continue;
     const std::string& name = rule.selection->name;
     if (std::any_of(study.cut.begin(), study.cut.end(),
                     [&](const NamedSelection& cut) { return cut.name == name; }))

@@ -83,8 +83,7 @@ class SceneEditor {
     const SceneFrame frame{crs()};
     ChosenObjects chosen = Selector(step_->objects, frame, subject(), step_->where).objects(all);
     if (step_->selection) {
-      const auto named =
-          Selector(step_->selection->of, frame, subject(), step_->where).objects(all);
+      const ChosenObjects named = selected_objects(*step_->selection, all, frame);
       for (std::size_t o = 0; o < chosen.size(); ++o)
         if (named[o] == 0) chosen[o] = 0;
     }

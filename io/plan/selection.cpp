@@ -47,8 +47,6 @@ ChosenParts places_named(const std::string& pattern, const FamilyTree& tree) {
   return named;
 }
 
-std::string subject_of(const NamedSelection& selection) { return "selections." + selection.name; }
-
 }  // namespace
 
 std::vector<PlanArea> areas_in_scene(const AreasStudy& study, const std::string& crs,
@@ -212,6 +210,30 @@ std::string empty_selection_warning(const std::string& name) {
          "chooses";
 }
 
+namespace {
+
+/// What `chosen_by` a selection, less what it leaves out. `chosen_by`: flags of a Selector.
+template <class ChosenBy>
+ChosenParts less_excepted(const NamedSelection& selection, const SceneFrame& frame,
+                          const ChosenBy& chosen_by) {
+  const Selector selector(selection.of, frame, "selections." + selection.name, selection.where);
+  ChosenParts chosen = chosen_by(selector);
+  for (const NamedSelection& other : selection.except) {
+    const ChosenParts left_out = less_excepted(other, frame, chosen_by);
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      if (left_out[i] != 0) chosen[i] = 0;
+  }
+  return chosen;
+}
+
+}  // namespace
+
+ChosenObjects selected_objects(const NamedSelection& selection, const SceneObjects& all,
+                               const SceneFrame& frame) {
+  return less_excepted(selection, frame,
+                       [&](const Selector& selector) { return selector.objects(all); });
+}
+
 ChosenParts selected_faces(const NamedSelection& selection, const Mesh& mesh,
                            const SceneFrame& frame) {
   return selected_faces(selection, mesh, frame, extents_of(mesh));
@@ -219,32 +241,34 @@ ChosenParts selected_faces(const NamedSelection& selection, const Mesh& mesh,
 
 ChosenParts selected_faces(const NamedSelection& selection, const Mesh& mesh,
                            const SceneFrame& frame, std::vector<ObjectExtent> extents) {
-  const Selector selector(selection.of, frame, subject_of(selection), selection.where);
-  return selector.parts(objects_of(mesh, std::move(extents)), mesh.facades, mesh.triangle_count(),
-                        [&](std::size_t t) {
-                          Vec3 sum;
-                          for (const auto v : mesh.triangles[t])
-                            sum += mesh.vertices[static_cast<std::size_t>(v)];
-                          return Selector::Part{mesh.triangle_object[t], mesh.triangle_facade[t],
-                                                mesh.triangle_surface[t], mesh.origin + sum / 3,
-                                                normalized(mesh.area_vector2(t))};
-                        });
+  const SceneObjects objects = objects_of(mesh, std::move(extents));
+  const auto face = [&](std::size_t t) {
+    Vec3 sum;
+    for (const auto v : mesh.triangles[t]) sum += mesh.vertices[static_cast<std::size_t>(v)];
+    return Selector::Part{mesh.triangle_object[t], mesh.triangle_facade[t],
+                          mesh.triangle_surface[t], mesh.origin + sum / 3,
+                          normalized(mesh.area_vector2(t))};
+  };
+  return less_excepted(selection, frame, [&](const Selector& selector) {
+    return selector.parts(objects, mesh.facades, mesh.triangle_count(), face);
+  });
 }
 
 ChosenParts selected_patches(const NamedSelection& selection, const BuiltScene& built,
                              const Hierarchy& hierarchy) {
   const Mesh& mesh = built.scene.mesh;
   const SceneFrame frame{built.crs, built.site.north_deg};
-  const Selector selector(selection.of, frame, subject_of(selection), selection.where);
-  return selector.parts(
-      objects_of(mesh, extents_of(mesh)), mesh.facades, hierarchy.patch_count(),
-      [&](std::size_t i) {
-        const Patch& patch = hierarchy.patches()[i];
-        const auto t = static_cast<std::size_t>(patch.triangle);
-        return Selector::Part{
-            mesh.triangle_object[t], patch.side == 0 ? mesh.triangle_facade[t] : FacadeId::none(),
-            mesh.triangle_surface[t], mesh.origin + hierarchy.centroid(i), hierarchy.normal(i)};
-      });
+  const SceneObjects objects = objects_of(mesh, extents_of(mesh));
+  const auto patch_part = [&](std::size_t i) {
+    const Patch& patch = hierarchy.patches()[i];
+    const auto t = static_cast<std::size_t>(patch.triangle);
+    return Selector::Part{
+        mesh.triangle_object[t], patch.side == 0 ? mesh.triangle_facade[t] : FacadeId::none(),
+        mesh.triangle_surface[t], mesh.origin + hierarchy.centroid(i), hierarchy.normal(i)};
+  };
+  return less_excepted(selection, frame, [&](const Selector& selector) {
+    return selector.parts(objects, mesh.facades, hierarchy.patch_count(), patch_part);
+  });
 }
 
 }  // namespace sunload

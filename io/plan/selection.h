@@ -104,6 +104,10 @@ void refuse_far(Point2 place, const std::vector<ObjectExtent>& extents, const st
 /// What to warn of where a selection has no patches.
 std::string empty_selection_warning(const std::string& name);
 
+// What a named selection chooses, less what it leaves out. They throw as a Selector does.
+/// Whole objects.
+ChosenObjects selected_objects(const NamedSelection& selection, const SceneObjects& all,
+                               const SceneFrame& frame);
 /// Faces of a mesh by their centroids.
 ChosenParts selected_faces(const NamedSelection& selection, const Mesh& mesh,
                            const SceneFrame& frame);

@@ -58,6 +58,7 @@ json canonical(const SceneFileStudy& file);
 json canonical(const MeasureParameters& measure);
 json canonical(const EditStep& step);
 json canonical(const LuminaireStudy& luminaire);
+json choice(const NamedSelection& selection);
 json canonical(const NamedSelection& selection);
 json canonical(const SeasonStudy& season);
 
@@ -191,7 +192,7 @@ json canonical(const AssignRule& rule) {
            {"type", kind},
            {"material", material}};
   // By what it is, not by its name.
-  if (selection) all["selection"] = canonical(*selection)["of"];
+  if (selection) all["selection"] = choice(*selection);
   return all;
 }
 
@@ -276,9 +277,15 @@ json canonical(const SelectionStudy& chosen) {
   return all;
 }
 
+/// What it chooses, whatever it and what it leaves out are called.
+json choice(const NamedSelection& selection) {
+  json all = canonical(selection.of);
+  for (const NamedSelection& other : selection.except) all["except"].push_back(choice(other));
+  return all;
+}
+
 json canonical(const NamedSelection& selection) {
-  const auto& [name, of, where] = selection;
-  return {{"name", name}, {"of", canonical(of)}};
+  return {{"name", selection.name}, {"of", choice(selection)}};
 }
 
 json canonical(const RemoveEdit& /*has no values*/) { return {{"remove", true}}; }
@@ -325,7 +332,7 @@ json canonical(const EditStep& step) {
   const auto& [objects, selection, action, where] = step;
   json all{{"objects", canonical(objects)},
            {"action", std::visit([](const auto& kind) { return canonical(kind); }, action)}};
-  if (selection) all["selection"] = canonical(*selection)["of"];
+  if (selection) all["selection"] = choice(*selection);
   return all;
 }
 
@@ -361,7 +368,7 @@ json canonical(const SceneStudy& scene) {
              {"assign", list_of(assign)},
              {"ground", ground ? canonical(*ground) : json()}};
   if (!edit.empty()) canon["edit"] = list_of(edit);
-  for (const NamedSelection& selection : cut) canon["cut"].push_back(canonical(selection)["of"]);
+  for (const NamedSelection& selection : cut) canon["cut"].push_back(choice(selection));
   for (const LandName& name : land) canon["land"].push_back(name.pattern);
   if (!luminaires.empty()) canon["luminaires"] = list_of(luminaires);
   // What most studies refuse has no key: their hashes stay.

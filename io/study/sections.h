@@ -49,6 +49,8 @@ std::string read_path(YamlMap& map, const std::string& key, const std::string& f
 /// As many numbers as that; empty where the key is absent or wrong, which is reported.
 std::vector<double> read_numbers(YamlMap& map, const std::string& key, std::size_t count,
                                  const std::string& in_words);
+/// x and y; nothing where the key is absent or wrong, which is reported.
+std::optional<Point2> read_point(YamlMap& map, const std::string& key);
 /// Three of them; nothing where the key is absent or wrong, which is reported.
 std::optional<Vec3> read_vector(YamlMap& map, const std::string& key);
 /// That a row of things has both its keys, `to_m` and `every_m`, or none.
@@ -57,6 +59,8 @@ void check_row(YamlMap& map, const std::string& things);
 std::vector<LuminaireStudy> read_luminaires(YamlMap& scene, const std::string& folder);
 /// `scene.edit`; paths are relative to `folder`.
 std::vector<EditStep> read_scene_edit(YamlMap& scene, const std::string& folder);
+/// The keys `object`, `type`, `polygon` and `near`; the file is relative to `folder`.
+SelectionStudy read_objects(YamlMap& map, const std::string& folder);
 /// Section `selections`; paths are relative to `folder`.
 std::vector<NamedSelection> read_selections(YamlMap& root, const std::string& folder);
 /// Whether a key says `weather` in place of a number.
@@ -72,9 +76,10 @@ void settle_seasons(YamlMap& root, Study& study, const std::set<std::string>& na
 void warn_of_unused_seasons(YamlReading& reading, const std::vector<Study>& variants);
 /// The key `selection` of a map that chooses: its name alone.
 std::optional<NamedSelection> read_selection_name(YamlMap& map);
-/// Gives every selection that rules, steps and measures name what it is; names that are none, and
-/// parts of objects where whole ones are wanted, are reported.
-void resolve_selections(YamlReading& reading, const std::vector<NamedSelection>& selections,
+/// Gives every selection that rules, steps, measures and other selections name what it is; names
+/// that are none, selections that leave out themselves, and parts of objects where whole ones are
+/// wanted are reported.
+void resolve_selections(YamlReading& reading, std::vector<NamedSelection>& selections,
                         SceneStudy& scene, const std::vector<MeasureParameters>& measures);
 /// What can be part of a dataset's name: letters A to Z, digits and _.
 bool is_dataset_name(const std::string& name);

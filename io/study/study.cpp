@@ -422,7 +422,8 @@ SceneStudy scene_of_text(const std::string& yaml, const std::string& variant) {
     if (each.name != variant) continue;
     YamlMap::read_all(merged(tree, each, reading), reading, [&](YamlMap& root) {
       root.section("scene", [&](YamlMap& map) { scene = read_scene(map, ""); });
-      resolve_selections(root.reading(), read_selections(root, ""), scene, {});
+      std::vector<NamedSelection> selections = read_selections(root, "");
+      resolve_selections(root.reading(), selections, scene, {});
       root.keep_rest();
     });
   }

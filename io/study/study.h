@@ -9,6 +9,7 @@
 /// appended to, other lists are replaced).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -192,6 +193,8 @@ struct SelectionStudy {
   bool is_of_parts() const {
     return !facade.empty() || !surface.empty() || azimuth_deg || height_m;
   }
+  /// Whether it ends within faces.
+  bool has_ends() const { return height_m || !polygon.areas.empty(); }
   bool chooses() const {
     return !object.empty() || !kind.empty() || near || !polygon.areas.empty() || is_of_parts();
   }
@@ -201,6 +204,21 @@ struct NamedSelection {
   std::string name;
   SelectionStudy of;
   Where where;
+  std::vector<NamedSelection> except = {};  ///< what these choose is left out
+
+  /// Of it, or of what it leaves out.
+  bool is_of_parts() const {
+    return has([](const auto& each) { return each.is_of_parts(); });
+  }
+  bool has_ends() const {
+    return has([](const auto& each) { return each.has_ends(); });
+  }
+
+ private:
+  template <class Property>
+  bool has(const Property& property) const {
+    return property(of) || std::any_of(except.begin(), except.end(), property);
+  }
 };
 
 /// One rule of `scene.assign`; empty pattern = any. `*` and `?` are wildcards.

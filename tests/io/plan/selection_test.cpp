@@ -140,6 +140,30 @@ TEST_F(Selections, FacesAreCutAlongTheirEnds) {
   }
 }
 
+TEST_F(Selections, LeaveOutWhatOthersChoose) {
+  const std::string low = "}, low: {height_m: [0, 4]";
+  EXPECT_NEAR(area("surface: wall, except: [low]" + low), 640 - 320 * 2.0 / 2, 1);
+  EXPECT_NEAR(
+      area("surface: wall, except: [low, east]" + low + "}, east: {object: two, surface: wall"),
+      160, 1);
+  // Alone: all else. Of what is left out, too, something may be left out.
+  EXPECT_NEAR(area("except: [ground]}, ground: {surface: ground"), 840, rounding_m2);
+  EXPECT_NEAR(area("surface: roof, except: [b]}, b: {object: '*', except: [c]}, c: {object: two"),
+              100, rounding_m2);
+  const std::string others = "a: {object: '*o*', except: [b]}, b: {object: two}";
+  const BuiltScene raised = build_scene(study(others, "    - {selection: a, raise: {by_m: 2}}"));
+  const auto extents = extents_of(raised.scene.mesh);
+  for (std::size_t o = 0; o < extents.size(); ++o)
+    if (const std::string& name = raised.scene.mesh.object_names[o]; name != "plane") {
+      EXPECT_NEAR(extents[o].box.high.z, name == "one" ? 10 : 8, 1e-9) << name;
+    }
+  const std::string upper = "a: {surface: wall, except: [b]}, b: {height_m: [0, 3]}";
+  const std::string rule = "  assign: [{selection: a, material: red}]\n  cut: [a]";
+  EXPECT_NEAR(area_of("red", build_scene(study(upper, rule))), 2.0 * 4 * 10 * 5, 1e-6);
+  EXPECT_NE(canonical_text(study(upper, rule)),
+            canonical_text(study("a: {surface: wall, except: [b]}, b: {height_m: [0, 4]}", rule)));
+}
+
 // The half of a rectangle is as large as one of its triangles, of which half lies beyond it.
 TEST_F(Selections, WholeTrianglesOfTheSameAreaAreWarnedOf) {
   const std::string east =
@@ -206,6 +230,12 @@ TEST_F(Selections, RefusesWhatCannotBe) {
       refusal("a: {near: {position_m: [1e6, 0]}}", "  assign: [{selection: a, material: red}]");
   EXPECT_TRUE(names(far, "selections.a: [1000000, 0] is")) << far;
   EXPECT_TRUE(names(refusal("a: {}"), "chooses nothing"));
+  const auto circle = refusal("a: {except: [b]}, b: {object: one, except: [a]}");
+  EXPECT_TRUE(names(circle, "selection 'a' leaves out itself (by way of a, b)")) << circle;
+  EXPECT_TRUE(names(refusal("a: {except: [b]}"), "no selection is called 'b'"));
+  const auto excepted = refusal("up: {surface: roof}, a: {object: one, except: [up]}",
+                                "    - {selection: a, remove: true}");
+  EXPECT_TRUE(names(excepted, "'a' chooses parts of objects")) << excepted;
   EXPECT_TRUE(names(refusal("'a b': {surface: wall}"), "cannot be the name of a selection"));
   EXPECT_TRUE(names(refusal("a: {height_m: [4, 0]}"), "selections.a.height_m"));
   EXPECT_TRUE(names(refusal("a: {azimuth_deg: [90]}"), "selections.a.azimuth_deg"));

@@ -1341,8 +1341,8 @@ TEST(CanonicalText, SeesEveryKeyOfTheSchemaButThese) {
       // So are selections, but for what rules and steps that name one choose (selection_test).
       "selections.*.object", "selections.*.type", "selections.*.facade", "selections.*.surface",
       "selections.*.azimuth_deg", "selections.*.height_m", "selections.*.polygon",
-      "selections.*.near.position_m", "selections.*.near.within_m", "scene.assign[].selection",
-      "scene.edit[].selection", "scene.cut",
+      "selections.*.near.position_m", "selections.*.near.within_m", "selections.*.except",
+      "scene.assign[].selection", "scene.edit[].selection", "scene.cut",
       // So are the parts of the period that have totals.
       "output.standard_error", "output.significant_bits", "output.totals", "output.series_step",
       // One word only, beside which no other period can stand; any parameter of built-in scenes.
