@@ -54,8 +54,12 @@ double crs_unit_m(const ResultReader& result);
 std::string export_caption(const ResultReader& result, const ShownQuantity& shown);
 
 using ExportWriter = void (*)(const ResultReader&, const ExportRules&, const ExportTarget&);
-/// One row per patch; --quantity series: one row per interval, RFC 4180.
+/// One row per patch, or a table of groups or sensors; a series (`export_series_csv`). RFC 4180.
 void export_csv(const ResultReader&, const ExportRules&, const ExportTarget&);
+/// Sun, sky, ledger and a series, of the intervals that the chosen part of the period has a share
+/// in: means over the whole, surfaces, objects, facades and selections, or sensors. Throws
+/// InputError for a quantity that is no series, and for one instant.
+void export_series_csv(const ResultReader&, const ExportRules&, std::ostream&);
 /// Legacy VTK PolyData, binary. Kitware, VTK File Formats.
 void export_vtk(const ResultReader&, const ExportRules&, const ExportTarget&);
 /// XDMF 2 whose numbers are those of the result file itself.

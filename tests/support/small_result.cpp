@@ -116,7 +116,8 @@ ResultTimes times() {
 /// One batch with the series and the ledger of all intervals.
 void append_series(ResultWriter& writer, const std::vector<double>& load,
                    const ResultGeometry& geometry, std::optional<double> facade_share,
-                   const std::string& path, std::size_t chunk_intervals) {
+                   std::optional<double> mirror_share, const std::string& path,
+                   std::size_t chunk_intervals) {
   BatchHeader header;
   header.content_hash = "none";
   header.isa = "none";
@@ -129,6 +130,16 @@ void append_series(ResultWriter& writer, const std::vector<double>& load,
   batch.add(
       {"irradiance", MergeRule::append, ArrayType::float32, {interval_share.size(), load.size()}},
       irradiance.data());
+  if (mirror_share) {
+    std::vector<float> mirrored;
+    for (const float value : irradiance)
+      mirrored.push_back(static_cast<float>(*mirror_share * value));
+    batch.add({"irradiance_mirror",
+               MergeRule::append,
+               ArrayType::float32,
+               {interval_share.size(), load.size()}},
+              mirrored.data());
+  }
   if (facade_share) {
     const std::size_t facades = geometry.facade_name.size();
     const FacadeMeans means(geometry.patch_facade, geometry.patch_area, facades);
@@ -198,8 +209,8 @@ std::string write_small_result(const SmallResult& result, const std::string& nam
     load[i] = sample_mean(samples).mean;
     se[i] = sample_mean(samples).se;
   }
-  append_series(writer, load, geometry, result.facade_share, path.string() + ".batch",
-                options.chunk_intervals);
+  append_series(writer, load, geometry, result.facade_share, result.mirror_share,
+                path.string() + ".batch", options.chunk_intervals);
   writer.write({"light_load", load});
   writer.write({"light_load_se", se});
   if (result.reflected_share > 0) {

@@ -37,6 +37,8 @@ struct SmallResult {
   double reflected_share = 0;   ///< of every load; 0: reflected light is not stored
   /// `facade_irradiance`, of what the means over patches are; nothing: not stored.
   std::optional<double> facade_share = {};
+  /// `irradiance_mirror`, of the irradiance; nothing: not stored.
+  std::optional<double> mirror_share = {};
   /// Hours of sun of a patch of that object and normal.
   std::function<double(const std::string& object, Vec3 normal)> hours = [](const std::string&,
                                                                            Vec3) { return 3.0; };

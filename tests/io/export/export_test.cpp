@@ -297,6 +297,38 @@ TEST(Export, SeriesOfFacadesAreThoseOfTheFile) {
   EXPECT_TRUE(ends_with(ground, ",600")) << ground;
 }
 
+TEST(Export, SeriesOfPartsAreThoseThatAreStored) {
+  SmallResult with;
+  with.facade_share = 1.01;
+  with.mirror_share = 0.25;
+  const auto path = write_small_result(with, "export_mirrored");
+  ExportRules rules;
+  rules.format = "csv";
+  rules.quantity = "irradiance_mirror";
+  rules.of = "facade";
+  rules.parts.facades = {"house_1/south_1"};
+  const auto lines = lines_of(exported(path, rules));
+  EXPECT_TRUE(lines.front().ends_with(",irradiance_mirror_w_m2 facade house_1/south_1"))
+      << lines.front();
+  EXPECT_TRUE(lines.back().ends_with(",150")) << lines.back();  // a quarter of 3 times 200
+  const auto said = [&](const std::string& quantity) {
+    rules.quantity = quantity;
+    return test::refusal_of([&] { exported(path, rules); });
+  };
+  EXPECT_NE(said("irradiance_sky")
+                .find("(none is stored); write series, or one of irradiance, "
+                      "irradiance_mirror"),
+            std::string::npos);
+  EXPECT_NE(said("light_load").find("(totals have no intervals)"), std::string::npos);
+  rules.of = "sensor";
+  EXPECT_NE(said("series").find("sensors beside facades"), std::string::npos);
+  rules.parts = {};
+  EXPECT_NE(said("series").find("the study has no sensors"), std::string::npos);
+  rules.of = "facade";
+  rules.time = "2026-06-21T09:30Z";
+  EXPECT_NE(said("irradiance").find("has all intervals"), std::string::npos);
+}
+
 TEST(Export, TablesAreOfWhatIsNamed) {
   const auto path = write_small_result({}, "export_named");
   ExportRules rules;
@@ -317,7 +349,10 @@ TEST(Export, TablesAreOfWhatIsNamed) {
   EXPECT_NE(refusal(rules, "a.csv").find("--of roof (no such table)"), std::string::npos);
   rules.of = "facade";
   rules.quantity = "light_load";
-  EXPECT_NE(refusal(rules, "a.csv").find("its columns are the totals"), std::string::npos);
+  EXPECT_NE(refusal(rules, "a.csv")
+                .find("no series light_load of groups of patches (totals have "
+                      "no intervals)"),
+            std::string::npos);
   rules = {};
   rules.format = "glb";
   rules.of = "facade";
