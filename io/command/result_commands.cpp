@@ -48,6 +48,8 @@ void add_differences(const Command& command, CompareOptions& options) {
               "rows of storeys of that height, of walls and windows above their object's foot")
       .within(1.0, 20.0);
   add_named(command, options.parts, "only rows of");
+  command.option("--sensor", options.parts.sensors,
+                 "only rows of the sensor of that number, from 0 (repeatable)");
 }
 
 /// What is explained, and in which way.

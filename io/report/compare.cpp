@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "geo/base/check.h"
 #include "io/base/name_pattern.h"
 #include "io/base/statistics.h"
 #include "io/report/compared.h"
+#include "io/report/compared_sensors.h"
+#include "io/report/difference.h"
 #include "io/result/common_area.h"
 #include "io/result/mesh_error.h"
 #include "io/result/pairing.h"
@@ -18,9 +19,6 @@
 
 namespace sunload {
 namespace {
-
-// Loads may be stored as float: below its spacing a difference is rounding.
-constexpr double rounding_share = std::numeric_limits<float>::epsilon();
 
 using Place = std::map<std::pair<std::string, std::string>, std::size_t>;
 
@@ -151,71 +149,25 @@ double area_alone(const Side& s, const PatchGroup& group) {
   return found == s.alone.place.end() ? 0 : s.alone.groups.groups()[found->second].area_m2;
 }
 
-/// Differences of group means that are no larger, either way, are none.
-double least_difference(double base_load, double variant_load, double least_percent) {
-  const double rounding = rounding_share * std::max(std::abs(base_load), std::abs(variant_load));
-  return std::max(rounding, std::abs(base_load) * least_percent / 100);
-}
-
-/// Realizations of a group's mean in both results.
-struct TwoSamples {
-  const std::vector<double>& base;
-  const std::vector<double>& variant;
-  Comparison::Errors errors;
-
-  /// Of variant − scale · base.
-  DifferenceError error(double scale = 1) const {
-    std::vector<double> scaled = base;
-    for (double& value : scaled) value *= scale;
-    return errors == Comparison::Errors::paired ? paired_error(scaled, variant)
-                                                : welch_error(scaled, variant);
-  }
-};
-
-/// Two-sided p-value of a true difference at the rim of what does not matter, which is the largest
-/// of all that do not (Hodges & Lehmann 1954, Testing the approximate validity of statistical
-/// hypotheses); without a rim that of no difference. For differences beyond it. A rim that is a
-/// share of the base has the base's noise.
-double p_beyond(const ComparisonRow& row, double least_percent, const TwoSamples& samples) {
-  const auto p = [&](double beyond, double scale) {
-    const DifferenceError error = samples.error(scale);
-    return student_t_two_sided_p(beyond / error.se, error.degrees_of_freedom);
-  };
-  const double difference = std::abs(row.difference_kwh_m2);
-  const double of_base = std::abs(*row.base_kwh_m2) * least_percent / 100;
-  const double mesh = std::isnan(row.mesh_error_kwh_m2) ? 0 : row.mesh_error_kwh_m2;
-  const double rim = std::max(of_base, mesh);
-  if (rim == 0) return p(difference, 1);
-  const double share = mesh > of_base ? 0 : least_percent / 100;
-  const double near = row.difference_kwh_m2 > 0 ? 1 + share : 1 - share;
-  return (p(difference - rim, near) + p(difference + rim, 2 - near)) / 2;
-}
-
 /// Group b of what the base has in common with the variant, whose group v it is.
 ComparisonRow matched_row(const Side& base, std::size_t b, const Side& variant, std::size_t v,
                           Comparison::Errors errors, double least_percent) {
   const auto& group = base.common.groups.groups()[b];
-  const double base_load = base.common.load[b], variant_load = variant.common.load[v];
   ComparisonRow row;
   row.kind = group.kind;
   row.name = group.name;
   row.area_m2 = group.area_m2;
-  row.base_kwh_m2 = base_load;
-  row.variant_kwh_m2 = variant_load;
-  row.difference_kwh_m2 = variant_load - base_load;
-  row.difference_percent = base_load == 0 ? not_known : row.difference_kwh_m2 / base_load * 100;
+  row.base_kwh_m2 = base.common.load[b];
+  row.variant_kwh_m2 = variant.common.load[v];
   row.unmatched_area_m2 = area_alone(base, group) + area_alone(variant, group);
   row.mesh_error_kwh_m2 = std::hypot(base.common.mesh_error[b], variant.common.mesh_error[v]);
-  row.se_kwh_m2 = row.degrees_of_freedom = row.p_value = row.p_corrected = not_known;
-  if (errors == Comparison::Errors::unknown || errors == Comparison::Errors::none) return row;
-  const TwoSamples samples{base.realizations[b], variant.realizations[v], errors};
-  const DifferenceError error = samples.error();
-  row.se_kwh_m2 = error.se;
-  row.degrees_of_freedom = error.degrees_of_freedom;
-  const double least = least_difference(base_load, variant_load, least_percent);
-  const double difference = std::abs(row.difference_kwh_m2);
-  const bool may_be_none = difference <= least || difference <= row.mesh_error_kwh_m2;
-  row.p_value = may_be_none ? 1 : p_beyond(row, least_percent, samples);
+  const bool has_errors =
+      errors == Comparison::Errors::paired || errors == Comparison::Errors::independent;
+  tell_difference(
+      row,
+      has_errors ? std::optional(TwoSamples{base.realizations[b], variant.realizations[v], errors})
+                 : std::nullopt,
+      least_percent);
   return row;
 }
 
@@ -223,14 +175,9 @@ enum class Present { base, variant };
 
 ComparisonRow lonely_row(const Side& s, std::size_t g, Present where) {
   const auto& group = s.alone.groups.groups()[g];
-  ComparisonRow row;
-  row.kind = group.kind;
-  row.name = group.name;
+  ComparisonRow row = row_without_difference(group.kind, group.name);
   row.area_m2 = row.unmatched_area_m2 = group.area_m2;
   (where == Present::base ? row.base_kwh_m2 : row.variant_kwh_m2) = s.alone.load[g];
-  row.difference_kwh_m2 = row.difference_percent = not_known;
-  row.se_kwh_m2 = row.degrees_of_freedom = row.p_value = row.p_corrected = not_known;
-  row.mesh_error_kwh_m2 = not_known;
   return row;
 }
 
@@ -284,6 +231,8 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
     comparison.rows.push_back(lonely_row(b, g, Present::base));
   for (std::size_t g = 0; g < v.alone.groups.groups().size(); ++g)
     comparison.rows.push_back(lonely_row(v, g, Present::variant));
+  for (ComparisonRow& row : compared_sensors(base, variant, comparison))
+    comparison.rows.push_back(std::move(row));
   correct_within_kinds(comparison.rows);
   return comparison;
 }
@@ -302,7 +251,7 @@ ChangeCounts change_counts(const Comparison& comparison, const std::string& kind
 }
 
 void keep_named(Comparison& comparison, const NamedParts& parts, const std::string& path) {
-  if (!parts.choose_patches()) return;
+  if (parts.empty()) return;
   std::vector<char> is_kept(comparison.rows.size(), 0);
   Problems problems;
   const auto keep = [&](const std::string& kind, const std::vector<std::string>& patterns) {
@@ -323,6 +272,7 @@ void keep_named(Comparison& comparison, const NamedParts& parts, const std::stri
   keep("facade", parts.facades);
   keep("object", parts.objects);
   keep("selection", parts.selections);
+  keep("sensor", parts.sensors);
   problems.throw_if_any();
   std::vector<ComparisonRow> rows;
   for (std::size_t i = 0; i < is_kept.size(); ++i)

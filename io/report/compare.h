@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What changes between two results: differences of the light load, or of another total per patch,
-/// with their significance, per facade, object, selection, orientation, storey, surface and on the
-/// whole.
+/// with their significance, per facade, object, selection, orientation, storey, surface, sensor and
+/// on the whole.
 ///
 /// Groups are matched by name and compared by the area-weighted mean of what both results have of
 /// them (io/result/common_area), in the same groups: new trees and storeys are in no mean of what
@@ -29,9 +29,10 @@ namespace sunload {
 /// One group; loads are area-weighted means [kWh m-2, klx h, or the unit of what is compared], NaN
 /// where not known.
 struct ComparisonRow {
-  std::string kind;  ///< of io/result/patch_groups.h
+  std::string kind;  ///< of io/result/patch_groups.h, or sensor
   std::string name;
-  double area_m2 = 0;  ///< that is compared; of a row of one result, that it has alone
+  /// That is compared; of a row of one result, that it has alone; of sensors not known.
+  double area_m2 = 0;
   std::optional<double> base_kwh_m2, variant_kwh_m2;  ///< absent: a row of the other result alone
   double difference_kwh_m2 = 0;                       ///< variant − base
   double difference_percent = 0;                      ///< of the base
@@ -79,9 +80,9 @@ struct CompareRules {
 Comparison compare_results(const ResultReader& base, const ResultReader& variant,
                            const CompareRules& rules = {});
 
-/// Keeps the rows of the facades, objects and selections that are named (all where nothing is);
-/// p-values stay corrected for all groups of their kind. Throws InputError for names that neither
-/// result has.
+/// Keeps the rows of the facades, objects, selections and sensors that are named (all where nothing
+/// is); p-values stay corrected for all groups of their kind. Throws InputError for names that
+/// neither result has.
 void keep_named(Comparison& comparison, const NamedParts& parts, const std::string& path);
 
 /// Groups of a kind that surely gain or lose more than asked for, and the others that both have; of

@@ -94,7 +94,7 @@ void put_groups(NetcdfFile& file, const Comparison& comparison) {
   }
   file.dimension("group", rows.size());
   file.put("group_kind", dims, h5::Type::text, "",
-           "whole, surface, object, facade, selection, orientation or storey", kinds);
+           "whole, surface, object, facade, selection, orientation, storey or sensor", kinds);
   file.put("group_name", dims, h5::Type::text, "", "name of the group", names);
   const auto put = [&](const std::string& name, const std::string& units, const std::string& what,
                        const auto& get) {

@@ -101,7 +101,7 @@ std::vector<ComparisonRow> rows_of_kind(const Comparison& comparison, const std:
 
 /// In the order of their tables.
 constexpr std::array kinds{"whole",     "surface",     "object", "facade",
-                           "selection", "orientation", "storey"};
+                           "selection", "orientation", "storey", "sensor"};
 constexpr std::span counted_kinds = std::span(kinds).subspan<1>();
 
 /// Whether anything tells what gains and loses: errors, or without them a share that matters.

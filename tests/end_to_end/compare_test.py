@@ -23,6 +23,7 @@ VARIANTS = """variants:
   - {name: dark, scene: {materials: {plaster: {diffuse: 0.2}}}}
   - {name: coarse, mesh: {max_edge_m: 4}}
 """
+SENSORS = "sensors: {points: [{position_m: [0, 0, 1], normal: [0, 0, 1]}, {position_m: [0, %d, 1], normal: [0, 1, 0]}]}\n"
 HEADER = ("group,name,area_m2,base_kwh_m2,variant_kwh_m2,difference_kwh_m2,difference_percent,se_kwh_m2,paired,p_value,"
           "p_corrected,significant,unmatched_area_m2")
 
@@ -144,6 +145,36 @@ def test_another_quantity(sunload, source, results, folder):
     run([sunload, "compare", *pair, "--quantity", "sky_view_factor", "--hours", "8-12"], 2)
 
 
+def test_sensors(sunload, folder):
+    """Sensors in the same place have differences realization by realization; others stand alone."""
+    write_study(folder, 4, 12)
+    study = os.path.join(folder, "square.yaml")
+    with open(study, encoding="utf-8") as file:
+        text = file.read()
+    for name, more in (("pair", SENSORS % -2 + VARIANTS), ("apart", SENSORS % -3)):
+        with open(study, "w", encoding="utf-8") as file:
+            file.write(text.replace("name: square", "name: " + name) + more)
+        run([sunload, "run", study, "--progress", "none", "--output", folder])
+    base, dark, coarse, apart = (os.path.join(folder, name) + ".h5" for name in
+                                 ("pair/baseline", "pair/dark", "pair/coarse", "apart/baseline"))
+
+    def rows(variant, *words):
+        return list(csv.DictReader(io.StringIO(run([sunload, "compare", base, variant, "--csv", "--sensor", "*", *words]))))
+
+    with h5py.File(base) as a, h5py.File(dark) as b:
+        means = b["sensor_light_load"][()] - a["sensor_light_load"][()]
+        apart_by = b["sensor_light_load_realization"][()] - a["sensor_light_load_realization"][()]
+    se = apart_by.std(axis=0, ddof=1) / len(apart_by) ** 0.5
+    for row, mean, error in zip(rows(dark), means, se, strict=True):
+        assert row["paired"] == "true" and row["area_m2"] == "" and mean < 0
+        assert np.allclose([float(row["difference_kwh_m2"]), float(row["se_kwh_m2"])], [mean, error], rtol=1e-6), row
+    assert [row["difference_kwh_m2"] == "" for row in rows(apart)] == [False, True, True]
+    assert all(row["se"] == "" and float(row["difference"]) == 0 for row in rows(dark, "--quantity", "sun_hours"))
+    assert not any(row["significant"] == "true" for row in rows(coarse)), "the mesh alone differs"
+    assert [row["name"] for row in rows(dark, "--facade", "house/south_1")] == ["house/south_1", "0", "1"]
+    run([sunload, "compare", base, dark, "--sensor", "2"], 2)
+
+
 def test(sunload, source, folder):
     write_study(folder, 2, 4)
     study = os.path.join(folder, "square.yaml")
@@ -171,6 +202,7 @@ def test(sunload, source, folder):
         assert np.allclose(file["patch_centroid"][()][found], coarse["patch_centroid"][()][match[found]], atol=1e-4)
     test_drawn_and_exported(sunload, target, folder)
     test_another_quantity(sunload, source, results, folder)
+    test_sensors(sunload, folder)
     run([sunload, "compare", *results.values(), "--hdf5", target], 2)
     run([sunload, "compare", results["baseline"], results["dark"], "--hdf5", os.path.join(folder, "no/such.h5")], 3)
     import xarray
