@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Placements of shapes within shapes: transformations of VRML and glTF files.
+/// Placements of shapes within shapes: transformations of VRML, glTF and city models.
 #pragma once
 
 #include <array>

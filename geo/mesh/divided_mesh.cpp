@@ -77,7 +77,7 @@ void DividedMesh::take_from_facades() {
   std::vector<double> left(mesh_.facades.size(), 0);
   for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
     if (mesh_.triangle_facade[t].exists() && !mesh_.is_covered(t))
-      left[mesh_.triangle_facade[t].index()] += norm(mesh_.area_vector2(t)) / 2;
+      left[mesh_.triangle_facade[t].index()] += mesh_.area_m2(t);
   std::vector<FacadeId> new_id(mesh_.facades.size(), FacadeId::none());
   std::size_t kept = 0;
   for (std::size_t f = 0; f < mesh_.facades.size(); ++f) {

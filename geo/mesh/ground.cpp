@@ -249,8 +249,7 @@ class GroundMaker {
       mesh_.triangle_facade.back() = mesh_.triangle_facade[wall];
       mesh_.triangle_sides.back() = mesh_.triangle_sides[wall];
       if (const auto facade = mesh_.triangle_facade[wall]; facade.exists())
-        mesh_.facades[facade.index()].area_m2 +=
-            norm(mesh_.area_vector2(mesh_.triangle_count() - 1)) / 2;
+        mesh_.facades[facade.index()].area_m2 += mesh_.area_m2(mesh_.triangle_count() - 1);
     }
   }
 

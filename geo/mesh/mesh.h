@@ -129,6 +129,7 @@ struct Mesh {
     const Vec3 a = corner(triangle, 0);
     return cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
   }
+  double area_m2(std::size_t triangle) const { return norm(area_vector2(triangle)) / 2; }
   /// Unit normal of a side.
   Vec3 normal(std::size_t triangle, bool front = true) const {
     const Vec3 n = normalized(area_vector2(triangle));

@@ -325,7 +325,7 @@ void measure(const Mesh& mesh, PrepareReport& report) {
   report.worst_aspect = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const auto surface = static_cast<std::size_t>(mesh.triangle_surface[t]);
-    const double area = norm(mesh.area_vector2(t)) / 2;
+    const double area = mesh.area_m2(t);
     report.area_m2[surface] += area;
     if (mesh.is_covered(t)) report.covered_m2[surface] += area;
     report.worst_aspect = std::max(report.worst_aspect, aspect(mesh, t));

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <deque>
 #include <optional>
@@ -41,7 +42,7 @@ namespace {
 const CLI::Validator positive_number(
     [](const std::string& text) {
       double value = 0;
-      return CLI::detail::lexical_cast(text, value) && value > 0
+      return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
                  ? std::string()
                  : "'" + text + "' is not a number above 0";
     },
@@ -193,7 +194,15 @@ Option Option::within(int least, int most) const {
 }
 
 Option Option::within(double least, double most) const {
-  parts_->option->check(CLI::Range(least, most));
+  // CLI::Range lets by what is no number.
+  parts_->option->check(CLI::Validator(
+      [least, most](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && value >= least && value <= most
+                   ? std::string()
+                   : fmt::format("'{}' is not in [{:g}, {:g}]", text, least, most);
+      },
+      fmt::format("NUMBER in [{:g}, {:g}]", least, most)));
   return *this;
 }
 

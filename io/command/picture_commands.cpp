@@ -70,8 +70,10 @@ void add_largest(const Command& command, std::optional<double>& largest) {
 void add_interpolation(const Command& command, bool& interpolate, const std::string& what,
                        std::optional<double>& crease_angle_deg) {
   command.flag("--interpolate", interpolate, what);
-  command.option("--crease-angle", crease_angle_deg,
-                 "patches that turn by more are not interpolated [degrees, default 20]");
+  command
+      .option("--crease-angle", crease_angle_deg,
+              "patches that turn by more are not interpolated [degrees, default 20]")
+      .within(0.0, 180.0);
 }
 
 void add_camera(const Command& command, RenderOptions& options) {

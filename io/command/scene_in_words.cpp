@@ -159,7 +159,7 @@ std::string shares_text(const Material& m) {
 std::string materials_text(const Scene& scene) {
   std::vector<double> area(scene.materials.size(), 0);
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t)
-    area[scene.material[t].index()] += norm(scene.mesh.area_vector2(t)) / 2;
+    area[scene.material[t].index()] += scene.mesh.area_m2(t);
   std::string text;
   for (std::size_t m = 0; m < area.size(); ++m) {
     const Material& material = scene.materials[m];
@@ -187,7 +187,7 @@ std::string parallel_sources_text(const ParallelSources& sources) {
   if (sources.exitance.empty()) return {};
   double area = 0, power = 0;
   for (std::size_t t = 0; t < sources.exitance.size(); ++t) {
-    const double own = norm(sources.mesh.area_vector2(t)) / 2;
+    const double own = sources.mesh.area_m2(t);
     area += own;
     power += own * sources.exitance[t];
   }

@@ -73,10 +73,13 @@ void add_horizon(CommandLine& line) {
   command.option("--crs", given->crs, "map projection of a raster that names none");
   command.option("--unit-m", given->unit_m, "length of the raster's unit [m] (default: 1)")
       .positive();
-  command.option("--above-m", given->above_m, "eye above the land of the place (default: 2)");
-  command.option("--from-m", given->from_m,
-                 "land nearer than this is left out: it is the scene's own (default: as far as "
-                 "the study's scene reaches; of --at: 0)");
+  command.option("--above-m", given->above_m, "eye above the land of the place (default: 2)")
+      .within(0.0, 10e3);
+  command
+      .option("--from-m", given->from_m,
+              "land nearer than this is left out: it is the scene's own (default: as far as "
+              "the study's scene reaches; of --at: 0)")
+      .within(0.0, 1e6);
   command.option("--to-m", given->to_m, "how far is looked (default: 50000)").positive();
   command.option("--step-deg", given->step_deg, "between two azimuths (default: 1)")
       .within(0.01, 30.0);

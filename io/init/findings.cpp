@@ -155,7 +155,7 @@ void look_at_surfaces(const Mesh& mesh, Findings& found) {
       found.has_excess = true;
   }
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const double area = norm(mesh.area_vector2(t)) / 2;
+    const double area = mesh.area_m2(t);
     const auto surface = static_cast<std::size_t>(mesh.triangle_surface[t]);
     found.area[surface] += area;
     const MaterialId material = mesh.triangle_material[t];

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/picture/viewpoint.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "geo/base/check.h"
+#include "geo/base/coordinates.h"
 #include "geo/base/units.h"
 #include "geo/mesh/mesh.h"
 #include "io/base/name_pattern.h"
@@ -49,6 +52,20 @@ std::optional<NamedParts> parts_named(const ResultReader& result, const std::str
   return {};
 }
 
+std::string option_in_words(const std::string& text, ViewpointOf of) {
+  return (of == ViewpointOf::eye ? "--eye " : "--look ") + text;
+}
+
+/// Throws InputError for what lies beyond all scenes.
+Vec3 within_reach(Vec3 place, const std::string& text, ViewpointOf of) {
+  for (const double x : {place.x, place.y, place.z})
+    if (!(std::abs(x) <= largest_coordinate_m))
+      throw InputError({}, option_in_words(text, of),
+                       fmt::format("{:g} m is beyond all coordinates on Earth", x),
+                       "write x,y,z in metres of the scene");
+  return place;
+}
+
 [[noreturn]] void refuse_unknown(const ResultReader& result, const std::string& text,
                                  ViewpointOf of) {
   auto known = result.strings("object_name");
@@ -61,7 +78,7 @@ std::optional<NamedParts> parts_named(const ResultReader& result, const std::str
     if (std::count(near.begin(), near.end(), ',') + 1 >= static_cast<std::ptrdiff_t>(most_told))
       break;
   }
-  throw InputError({}, (of == ViewpointOf::eye ? "--eye " : "--look ") + text,
+  throw InputError({}, option_in_words(text, of),
                    "neither three numbers nor an object or facade of " + result.path(),
                    near.empty() ? "write x,y,z in metres, or a name; sunload info --objects lists "
                                   "the names"
@@ -111,7 +128,8 @@ ScenePlace scene_place(const ResultReader& result, const NamedParts& parts) {
 }
 
 Viewpoint viewpoint(const ResultReader& result, const std::string& text, ViewpointOf of) {
-  if (const auto point = three_numbers(text)) return {*point - result.origin(), {}, {}};
+  if (const auto point = three_numbers(text))
+    return {within_reach(*point, text, of) - result.origin(), {}, {}};
   if (const auto parts = parts_named(result, text)) {
     ScenePlace place = scene_place(result, *parts);
     Vec3 at = place.middle();
@@ -129,7 +147,7 @@ Viewpoint viewpoint(const ResultReader& result, const std::string& text, Viewpoi
       plus == std::string::npos ? std::nullopt : three_numbers(text.substr(plus + 1));
   const auto parts = offset ? parts_named(result, text.substr(0, plus)) : std::nullopt;
   if (!parts) refuse_unknown(result, text, of);
-  return {scene_place(result, *parts).foot() + *offset, {}, {}};
+  return {scene_place(result, *parts).foot() + within_reach(*offset, text, of), {}, {}};
 }
 
 }  // namespace sunload

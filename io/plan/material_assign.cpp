@@ -131,7 +131,7 @@ class MaterialAssigner {
         Sides sides = mesh.triangle_sides[t];
         for (const auto& named : study.materials)
           if (named.name == mesh.file_materials[m].name) sides = named.sides.value_or(sides);
-        area[m] += (sides == Sides::two ? 2 : 1) * norm(mesh.area_vector2(t)) / 2;
+        area[m] += (sides == Sides::two ? 2 : 1) * mesh.area_m2(t);
       }
     for (std::size_t m = 0; m < area.size(); ++m)
       if (area[m] > 0) emission[m] = mesh.file_materials[m].emitted_power_w / area[m];
@@ -201,7 +201,7 @@ class MaterialAssigner {
 
   const MaterialStudy& given_by(std::size_t rule, std::size_t t) {
     ++used_[rule].given;
-    used_[rule].given_m2 += norm(scene_.mesh.area_vector2(t)) / 2;
+    used_[rule].given_m2 += scene_.mesh.area_m2(t);
     return named(study_.scene.assign[rule].material);
   }
 
@@ -368,7 +368,7 @@ class MaterialAssigner {
   void add_default(std::size_t t) {
     if (scene_.mesh.bears_patches(t))
       defaulted_m2_[static_cast<std::size_t>(scene_.mesh.triangle_surface[t])] +=
-          norm(scene_.mesh.area_vector2(t)) / 2;
+          scene_.mesh.area_m2(t);
   }
 
   /// Of what is no patch the reflectance is never asked for.
@@ -383,7 +383,7 @@ class MaterialAssigner {
     }
     if (defaulted == 0) return;
     for (std::size_t t = 0; t < scene_.mesh.triangle_count(); ++t)
-      if (scene_.mesh.bears_patches(t)) all += norm(scene_.mesh.area_vector2(t)) / 2;
+      if (scene_.mesh.bears_patches(t)) all += scene_.mesh.area_m2(t);
     warnings_.push_back(fmt::format(
         "{:.0f} m2, {:.3g} % of the surface, have no material in file or study ({}); diffuse "
         "reflectance {} is taken for them; scene.assign and scene.ground give materials, `sunload "
@@ -401,7 +401,7 @@ class MaterialAssigner {
       if (id.exists() && mesh.file_materials[id.index()].glows &&
           !by_name_.contains(mesh.file_materials[id.index()].name) &&
           scene_.material_of(t).emission_w_m2 == 0)
-        dark_m2[mesh.file_materials[id.index()].name] += norm(mesh.area_vector2(t)) / 2;
+        dark_m2[mesh.file_materials[id.index()].name] += mesh.area_m2(t);
     }
     for (const auto& [name, area] : dark_m2)
       warnings_.push_back(fmt::format(

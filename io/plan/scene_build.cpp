@@ -172,7 +172,7 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
   std::vector<double> area(mesh.file_materials.size(), 0);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.triangle_material[t].exists())
-      area[mesh.triangle_material[t].index()] += norm(mesh.area_vector2(t)) / 2;
+      area[mesh.triangle_material[t].index()] += mesh.area_m2(t);
   const auto exitance = [&](MaterialId id) {
     if (!id.exists()) return 0.0;
     const FileMaterial& file = mesh.file_materials[id.index()];
@@ -387,8 +387,7 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
       mesh.triangle_sides[t] = sides_of_files[cut.source[t]];
       const bool is_dark = (covers[cut.source[t]] & dark_back) != 0;
       built.dark_backs.push_back(is_dark);
-      if (is_dark && mesh.bears_patches(t))
-        built.report.dark_backs_m2 += norm(mesh.area_vector2(t)) / 2;
+      if (is_dark && mesh.bears_patches(t)) built.report.dark_backs_m2 += mesh.area_m2(t);
     }
     if (cut.covered > 0 || cut.taken.area_m2 > 0) measure(mesh, built.report);
     warn_of_doubled(cut.taken, prepared.scene.mesh, are_left_out, built);

@@ -131,12 +131,11 @@ WholeTriangles whole_triangles(const AssignRule& rule, const Mesh& mesh, const S
   };
   WholeTriangles sum;
   for (std::size_t t = 0; t < whole.size(); ++t)
-    if (whole[t] != 0 && parts.is_divided[t] == 0 && counts(t))
-      sum.held += norm(mesh.area_vector2(t)) / 2;
+    if (whole[t] != 0 && parts.is_divided[t] == 0 && counts(t)) sum.held += mesh.area_m2(t);
   for (std::size_t p = 0; p < exact.size(); ++p) {
     const std::size_t t = parts.source[p];
     if (parts.is_divided[t] == 0 || !counts(t)) continue;
-    const double area = norm(parts.mesh.area_vector2(p)) / 2;
+    const double area = parts.mesh.area_m2(p);
     if (exact[p] != 0) sum.held += area;
     if (exact[p] != 0 && whole[t] == 0) sum.lacking += area;
     if (exact[p] == 0 && whole[t] != 0) sum.beyond += area;

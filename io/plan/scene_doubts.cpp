@@ -269,7 +269,7 @@ void warn_of_reflectances(const Study& study, BuiltScene& built) {
     if (!scene.mesh.bears_patches(t)) continue;
     const auto s = static_cast<std::size_t>(scene.mesh.triangle_surface[t]);
     const Material& material = scene.material_of(t);
-    const double area = norm(scene.mesh.area_vector2(t)) / 2;
+    const double area = scene.mesh.area_m2(t);
     const auto add = [&](Reflecting& sum) {
       sum.area_m2 += area;
       sum.diffuse_m2 += area * material.diffuse;

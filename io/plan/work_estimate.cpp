@@ -50,7 +50,7 @@ double estimated_samples(const VariantPlan& plan, const MaterialsOfScene& of_sea
   double area = 0, reflecting = 0, emitted_w = 0, brightest_w_m2 = 0;
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
     const Material& m = of_season.of(t);
-    const double a = norm(scene.mesh.area_vector2(t)) / 2;
+    const double a = scene.mesh.area_m2(t);
     area += a;
     reflecting += a * m.diffuse;
     emitted_w += a * m.emission_w_m2;

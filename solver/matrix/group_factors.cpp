@@ -18,26 +18,26 @@ using Exchanges = std::vector<std::vector<double>>;
 
 bool is_of_group(std::int32_t group) { return group >= 0; }
 
-std::vector<double> areas_of(const Hierarchy& hierarchy, const PatchDivision& division) {
-  std::vector<double> area(division.groups, 0);
+std::vector<double> areas_of(const Hierarchy& hierarchy, const PatchGrouping& grouping) {
+  std::vector<double> area(grouping.groups, 0);
   for (std::size_t i = 0; i < hierarchy.patch_count(); ++i)
-    if (const auto g = division.group_of[i]; is_of_group(g))
+    if (const auto g = grouping.group_of[i]; is_of_group(g))
       area[static_cast<std::size_t>(g)] += hierarchy.area()[i];
   return area;
 }
 
 /// Rows of patches into rows of their groups.
 Exchanges summed(const FormFactors& factors, const Hierarchy& hierarchy,
-                 const PatchDivision& division) {
-  const std::size_t n = factors.patches, G = division.groups;
+                 const PatchGrouping& grouping) {
+  const std::size_t n = factors.patches, G = grouping.groups;
   Exchanges exchanges(factors.realizations.size(), std::vector<double>(G * G, 0));
   parallel_for(exchanges.size(), [&](std::size_t r) {
     for (std::size_t i = 0; i < n; ++i) {
-      if (!is_of_group(division.group_of[i])) continue;
-      double* row = exchanges[r].data() + static_cast<std::size_t>(division.group_of[i]) * G;
+      if (!is_of_group(grouping.group_of[i])) continue;
+      double* row = exchanges[r].data() + static_cast<std::size_t>(grouping.group_of[i]) * G;
       const float* F = factors.realizations[r].data() + i * n;
       for (std::size_t j = 0; j < n; ++j)
-        if (const auto h = division.group_of[j]; is_of_group(h))
+        if (const auto h = grouping.group_of[j]; is_of_group(h))
           row[h] += hierarchy.area()[i] * static_cast<double>(F[j]);
     }
   });
@@ -53,11 +53,11 @@ struct Met {
 /// Lines from every patch that is of a group.
 class ByLines {
  public:
-  ByLines(const Hierarchy& hierarchy, const RayCaster& caster, const PatchDivision& division,
+  ByLines(const Hierarchy& hierarchy, const RayCaster& caster, const PatchGrouping& grouping,
           const FormFactorRules& rules, Watch& watch)
       : hierarchy_(hierarchy),
         caster_(caster),
-        division_(division),
+        grouping_(grouping),
         rules_(rules),
         watch_(watch),
         R_(static_cast<std::size_t>(rules.realizations)),
@@ -67,7 +67,7 @@ class ByLines {
 
   /// Sums in the order of the patches, whoever cast their lines.
   Exchanges exchanges() const {
-    const std::size_t n = hierarchy_.patch_count(), G = division_.groups;
+    const std::size_t n = hierarchy_.patch_count(), G = grouping_.groups;
     Exchanges sums(R_, std::vector<double>(G * G, 0));
     std::vector<std::vector<Met>> met(patches_at_a_time * R_);
     for (std::size_t first = 0; first < n; first += patches_at_a_time) {
@@ -95,7 +95,7 @@ class ByLines {
 
   std::vector<Met> met_by(std::size_t i, std::size_t r) const {
     std::vector<Met> met;
-    if (!is_of_group(division_.group_of[i])) return met;
+    if (!is_of_group(grouping_.group_of[i])) return met;
     const PatchLines lines(hierarchy_, i, caster_.offset_m(),
                            random_words({.seed = rules_.seed,
                                          .purpose = Purpose::form_factors,
@@ -114,7 +114,7 @@ class ByLines {
     const auto j = hierarchy_.patch_at(hit.triangle, hit.u, hit.v, hit.front);
     // A rounding of rays: patches are plane.
     if (j < 0 || static_cast<std::size_t>(j) == from) return;
-    const auto group = division_.group_of[static_cast<std::size_t>(j)];
+    const auto group = grouping_.group_of[static_cast<std::size_t>(j)];
     if (!is_of_group(group)) return;
     const auto known =
         std::find_if(met.begin(), met.end(), [&](const Met& m) { return m.group == group; });
@@ -126,14 +126,14 @@ class ByLines {
 
   void add(std::size_t i, const std::vector<Met>& met, std::vector<double>& sums) const {
     if (met.empty()) return;
-    double* row = sums.data() + static_cast<std::size_t>(division_.group_of[i]) * division_.groups;
+    double* row = sums.data() + static_cast<std::size_t>(grouping_.group_of[i]) * grouping_.groups;
     const double of_line = hierarchy_.area()[i] / static_cast<double>(lines_each_);
     for (const auto& [group, lines] : met) row[group] += of_line * static_cast<double>(lines);
   }
 
   const Hierarchy& hierarchy_;
   const RayCaster& caster_;
-  const PatchDivision& division_;
+  const PatchGrouping& grouping_;
   const FormFactorRules& rules_;
   Watch& watch_;
   std::size_t R_, lines_each_;
@@ -158,20 +158,20 @@ void take_factors(Exchanges& exchanges, const std::vector<double>& area) {
 }  // namespace
 
 GroupFactors group_factors(const Mesh& mesh, const Hierarchy& hierarchy, const RayCaster& caster,
-                           const PatchDivision& division, const FormFactorRules& rules,
+                           const PatchGrouping& grouping, const FormFactorRules& rules,
                            Watch& watch) {
-  SUNLOAD_EXPECT(division.group_of.size() == hierarchy.patch_count(), "a group of every patch");
-  SUNLOAD_EXPECT(division.groups <= most_factor_groups, "not too many groups");
+  SUNLOAD_EXPECT(grouping.group_of.size() == hierarchy.patch_count(), "a group of every patch");
+  SUNLOAD_EXPECT(grouping.groups <= most_factor_groups, "not too many groups");
   GroupFactors made;
-  made.groups = division.groups;
-  made.area = areas_of(hierarchy, division);
+  made.groups = grouping.groups;
+  made.area = areas_of(hierarchy, grouping);
   if (hierarchy.patch_count() <= most_matrix_patches) {
     const FormFactors of_patches = form_factors(mesh, hierarchy, caster, rules, watch);
     made.rays = of_patches.rays;
     made.has_formulas = true;
-    made.realizations = summed(of_patches, hierarchy, division);
+    made.realizations = summed(of_patches, hierarchy, grouping);
   } else {
-    const ByLines by_lines(hierarchy, caster, division, rules, watch);
+    const ByLines by_lines(hierarchy, caster, grouping, rules, watch);
     made.rays = by_lines.rays();
     made.realizations = by_lines.exchanges();
   }

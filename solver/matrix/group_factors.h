@@ -19,13 +19,13 @@ namespace sunload {
 /// Their factors take 32 MB for each realization.
 inline constexpr std::size_t most_factor_groups = 2000;
 
-/// Which group each patch is of; -1: of none. Each patch by itself, too, is a division.
-struct PatchDivision {
+/// Which group each patch is of; -1: of none. Each patch by itself, too, is a grouping.
+struct PatchGrouping {
   std::vector<std::int32_t> group_of;  ///< [patch]
   std::size_t groups = 0;
 };
 
-/// Form factors between the groups of a division; the groups keep its numbers.
+/// Form factors between the groups; they keep their numbers.
 struct GroupFactors {
   std::size_t groups = 0;
   std::vector<double> area;                       ///< [group], m2
@@ -38,7 +38,7 @@ struct GroupFactors {
 /// group, to backs or floors; where none of these is seen it may be below 0, by its error. The same
 /// bits for any number of threads. Throws Interrupted.
 GroupFactors group_factors(const Mesh& mesh, const Hierarchy& hierarchy, const RayCaster& caster,
-                           const PatchDivision& division, const FormFactorRules& rules,
+                           const PatchGrouping& grouping, const FormFactorRules& rules,
                            Watch& watch);
 
 }  // namespace sunload

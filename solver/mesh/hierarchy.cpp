@@ -31,7 +31,7 @@ std::size_t least_patch_count(const Scene& scene, const SplitRules& rules) {
   double count = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!mesh.bears_patches(t)) continue;
-    const double area_m2 = norm(mesh.area_vector2(t)) / 2;
+    const double area_m2 = mesh.area_m2(t);
     const double leaves = std::max(1.0, std::ceil(area_m2 / largest_leaf_m2));
     count += mesh.triangle_sides[t] == Sides::two ? 2 * leaves : leaves;
   }

@@ -53,7 +53,7 @@ MeshPilot::MeshPilot(const ElementForest& forest, const Scene& scene, const RayC
     const double exitance = scene.material_of(t).emission_w_m2;
     if (exitance <= 0 || light.lamp_time_s <= 0) continue;
     const int sides = scene.mesh.triangle_sides[t] == Sides::two ? 2 : 1;
-    emitted_power_ += sides * exitance * norm(scene.mesh.area_vector2(t)) / 2;
+    emitted_power_ += sides * exitance * scene.mesh.area_m2(t);
     emitters_.push_back({static_cast<std::int32_t>(t), emitted_power_});
   }
   for (auto& emitter : emitters_) emitter.power_share /= emitted_power_;

@@ -33,7 +33,7 @@ SunImages::SunImages(const Scene& scene, const RayCaster& caster, const PeriodLi
   for (std::size_t g = 0; g < mirrors_.size(); ++g) {
     mirror_area_m2_.push_back(0);
     for (const auto t : mirrors_[g].triangles)
-      mirror_area_m2_[g] += norm(scene.mesh.area_vector2(static_cast<std::size_t>(t))) / 2;
+      mirror_area_m2_[g] += scene.mesh.area_m2(static_cast<std::size_t>(t));
   }
   for (std::size_t h = 0; h < of_half_.size(); ++h) {
     add_images(light, light.suns, h);

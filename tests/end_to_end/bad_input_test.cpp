@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
+#include <sstream>
 
 #include "io/result/reader.h"
 #include "tests/support/paths.h"
@@ -234,6 +236,24 @@ TEST(BadInput, CommandLines) {
   refused({"scene", "street", "-o", "x.obj", "--set", "house_3=wood"}, "house_3 = 'wood'");
   const Ran two = program(small.folder, {"run", "square.yaml", "--variant", "a", "--variant", "b"});
   EXPECT_EQ(two.lines().size(), 2u) << two.err;
+}
+
+TEST(BadInput, NoOptionTakesWhatIsNoNumber) {
+  const Small small;
+  const std::regex number("\\s+(?:-\\w,)?(--[\\w-]+) FLOAT.*");
+  std::set<std::string> asked;
+  for (const char* command : {"check", "compare", "explain", "export", "horizon", "info", "init",
+                              "merge", "render", "run", "scene", "sky", "sun", "view"}) {
+    std::istringstream help(program(small.folder, {command, "--help"}).out);
+    std::smatch words;
+    for (std::string line; std::getline(help, line);) {
+      if (!std::regex_match(line, words, number)) continue;
+      asked.insert(words[1]);
+      for (const char* value : {"nan", "inf", "-inf"})
+        expect_refused(small.folder, {command, words[1].str() + "=" + value}, {value});
+    }
+  }
+  EXPECT_TRUE(asked.contains("--storey-m") && asked.contains("--time-limit")) << asked.size();
 }
 
 TEST(BadInput, HelpAndVersionAreNoErrors) {

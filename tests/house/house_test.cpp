@@ -153,6 +153,53 @@ TEST(House, DependenciesRunOneWay) {
   }
 }
 
+/// Files whose text defines each type at the level of a named namespace, by its full name.
+std::map<std::string, Names> homes_of_types(const std::map<std::string, std::string>& texts) {
+  const std::regex space("namespace ([\\w:]+) \\{.*"),
+      type("(?:struct|class|union|enum class|enum) (\\w+)(?: final)?(?: :.*|\\W*\\{.*)?");
+  std::map<std::string, Names> homes;
+  for (const auto& [file, text] : texts) {
+    std::istringstream lines(text);
+    std::string within;
+    std::smatch words;
+    for (std::string line; std::getline(lines, line);)
+      if (std::regex_match(line, words, space))
+        within = words[1];
+      else if (std::regex_match(line, words, type))
+        homes[within + "::" + words[1].str()].insert(file);
+  }
+  return homes;
+}
+
+/// Types of one name, told with their files: to the linker their members are the same.
+std::vector<std::string> types_of_one_name(const std::map<std::string, std::string>& texts) {
+  std::vector<std::string> told;
+  for (const auto& [name, files] : homes_of_types(texts)) {
+    if (files.size() < 2) continue;
+    told.push_back(name + ":");
+    for (const auto& file : files) told.back() += " " + file;
+  }
+  return told;
+}
+
+TEST(House, EveryTypeHasAHomeOfItsOwn) {
+  const fs::path root(test::source_folder());
+  std::map<std::string, std::string> headers;
+  for (const auto& [file, list] : all_includes()) {
+    if (!file.ends_with(".h")) continue;
+    std::ifstream source(root / file);
+    headers[file] = {std::istreambuf_iterator<char>(source), {}};
+  }
+  EXPECT_GT(homes_of_types(headers).size(), 400u) << "types are not found any more";
+  EXPECT_EQ(types_of_one_name(headers), std::vector<std::string>());
+  const std::string begin = "namespace sunload {\n";
+  const std::vector<std::string> planted =
+      types_of_one_name({{"a.h", begin + "struct Place {\n"},
+                         {"b.h", begin + "class Place : Area {\n"},
+                         {"c.h", begin + "struct Place;\n"}});
+  EXPECT_EQ(planted, std::vector<std::string>{"sunload::Place: a.h b.h"});
+}
+
 TEST(House, EveryRoomTellsWhatLivesInIt) {
   constexpr int most_lines = 15;
   for (const auto& room : all_rooms()) {

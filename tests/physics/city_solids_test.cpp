@@ -203,7 +203,7 @@ CityBodies bodies_of_mesh(const Mesh& mesh) {
     const auto object = mesh.triangle_object[t];
     const Vec3 origin = about.try_emplace(object.value, mesh.corner(t, 0)).first->second;
     auto& body = bodies[mesh.object_names[object.index()]];
-    const double area = norm(mesh.area_vector2(t)) / 2;
+    const double area = mesh.area_m2(t);
     body.volume += dot(mesh.corner(t, 0) - origin, mesh.area_vector2(t)) / 6;
     body.area += area;
     if (mesh.triangle_surface[t] == Surface::wall) body.wall += area;

@@ -181,7 +181,7 @@ TEST(Spheres, SeeTheirOwnInside) {
   const Scene scene = inward_sphere(3, {{"black", 0, 0, 0}, {"lamp", 0, 0, 1}}, in_cap);
   double cap = 0, all = 0, inner = 1;
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
-    const double area = norm(scene.mesh.area_vector2(t)) / 2;
+    const double area = scene.mesh.area_m2(t);
     all += area;
     if (scene.material[t].index() == 1) cap += area;
     inner = std::min(

@@ -39,20 +39,10 @@ void append_polygons(const PolygonModel& shape, std::int32_t first_vertex, bool 
 
 }  // namespace
 
-Vec3 Affine::operator()(Vec3 p) const {
-  return {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
-          m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
-}
-
-bool Affine::is_mirror() const {
-  return dot({m[0], m[1], m[2]}, cross({m[4], m[5], m[6]}, {m[8], m[9], m[10]})) < 0;
-}
-
 std::optional<Affine> affine_of(const std::array<double, 16>& m) {
   if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) return std::nullopt;
-  Affine affine;
-  std::copy_n(m.begin(), affine.m.size(), affine.m.begin());
-  return affine;
+  return Affine{{Vec3{m[0], m[4], m[8]}, Vec3{m[1], m[5], m[9]}, Vec3{m[2], m[6], m[10]}},
+                {m[3], m[7], m[11]}};
 }
 
 ShapePlacer::ShapePlacer(const SceneFromFile& scene_from_file, std::size_t file_bytes)
@@ -71,7 +61,8 @@ Placed ShapePlacer::append(const PolygonModel& shape, const Affine& affine, Vec3
     target.vertices.push_back(reference + scene_from_file_(affine(vertex)));
     if (!is_usable(target.vertices.back())) return Placed::beyond_coordinates;
   }
-  append_polygons(shape, first_vertex, affine.is_mirror(), facts, target);
+  const bool is_mirrored = affine.determinant() < 0;  // mirrors turn the winding of polygons
+  append_polygons(shape, first_vertex, is_mirrored, facts, target);
   return Placed::yes;
 }
 

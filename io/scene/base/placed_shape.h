@@ -7,19 +7,11 @@
 #include <cstddef>
 #include <optional>
 
+#include "geo/mesh/affine.h"
 #include "geo/mesh/mesh.h"
 #include "io/scene/base/from_file.h"
 
 namespace sunload {
-
-/// Row-major 3×4 part of a transformation matrix.
-struct Affine {
-  std::array<double, 12> m{};
-
-  Vec3 operator()(Vec3 p) const;
-  /// Mirrors turn the winding of polygons.
-  bool is_mirror() const;
-};
 
 /// Of a 4×4 matrix, row by row; nothing where its last row is not 0 0 0 1.
 std::optional<Affine> affine_of(const std::array<double, 16>& matrix);

@@ -149,7 +149,7 @@ std::int32_t PolygonWriter::vertex(Vec3 in_file, XmlElement ring) {
   const Vec3 position = scene_from_file_(in_file);
   if (!is_usable(position))
     document_.file().fail(ring, "has a corner beyond all coordinates on Earth",
-                          "no map projection reaches 1e10 m", "are srsName and unit_m right?");
+                          "no map projection reaches 1e9 m", "are srsName and unit_m right?");
   model_.vertices.push_back(position);
   return entry->second;
 }

@@ -173,7 +173,7 @@ class CityReader {
 
   Affine affine_of_implicit(XmlElement implicit) {
     const auto element = implicit.child("transformationMatrix");
-    if (!element) return {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+    if (!element) return {};
     std::array<double, 16> matrix{};
     const auto& numbers = coordinates_.numbers(element);
     if (numbers.size() != matrix.size())
@@ -196,7 +196,7 @@ class CityReader {
     const Vec3 reference = frame_(coordinates_.point(point));
     if (!is_usable(reference))
       document_.file().fail(point, "lies beyond all coordinates on Earth",
-                            "no map projection reaches 1e10 m", "are srsName and unit_m right?");
+                            "no map projection reaches 1e9 m", "are srsName and unit_m right?");
     return reference;
   }
 

@@ -227,7 +227,7 @@ Vec3 CityVertices::position(std::size_t index, const GeometryPlace& place) const
   if (!is_usable(position)) {
     throw InputError({place.file, place.line},
                      "vertex " + std::to_string(index) + " lies beyond all coordinates on Earth",
-                     "no map projection reaches 1e10 m", "are transform and unit_m right?");
+                     "no map projection reaches 1e9 m", "are transform and unit_m right?");
   }
   return position;
 }

@@ -252,7 +252,7 @@ class GltfReader {
       faces_.note_single_precision(point);
       if (!faces_.add_vertex(file_from_mesh(point)))
         file_.fail("has a vertex beyond all coordinates on Earth",
-                   "a coordinate is no finite number below 1e10 m", "is unit_m right?");
+                   "a coordinate is no finite number below 1e9 m", "is unit_m right?");
     }
     return first;
   }

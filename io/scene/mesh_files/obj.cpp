@@ -100,7 +100,7 @@ class ObjReader {
     const Vec3 position = scene_from_file_({xyz[0], xyz[1], xyz[2]});
     if (!is_usable(position)) {
       fail(words_.byte_of({}), "vertex beyond all coordinates on Earth",
-           "no map projection reaches 1e10 m", "is unit_m right?");
+           "no map projection reaches 1e9 m", "is unit_m right?");
     }
     vertices_.push_back(position);
   }

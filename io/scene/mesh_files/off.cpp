@@ -70,7 +70,7 @@ class OffReader {
       coordinate = *value;
     }
     if (!faces_.add_vertex({xyz[0], xyz[1], xyz[2]}))
-      fail(word, "vertex beyond all coordinates on Earth", "no map projection reaches 1e10 m",
+      fail(word, "vertex beyond all coordinates on Earth", "no map projection reaches 1e9 m",
            "is unit_m right?");
     words_.go_to_next_line();  // normals, colours, texture coordinates
   }

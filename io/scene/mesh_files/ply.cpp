@@ -329,7 +329,7 @@ class BodyReader {
       }
       if (are_single) faces_.note_single_precision({xyz[0], xyz[1], xyz[2]});
       if (!faces_.add_vertex({xyz[0], xyz[1], xyz[2]})) {
-        fail(v, "is no point on Earth", "a coordinate is no finite number below 1e10 m",
+        fail(v, "is no point on Earth", "a coordinate is no finite number below 1e9 m",
              "is unit_m right?");
       }
     }

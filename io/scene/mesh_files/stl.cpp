@@ -94,7 +94,7 @@ class StlReader {
         faces_.note_single_precision(point);
         if (!add_point(point)) {
           throw InputError({path_}, fmt::format("triangle {} has a point that is none on Earth", t),
-                           "a coordinate is no finite number below 1e10 m", "is unit_m right?");
+                           "a coordinate is no finite number below 1e9 m", "is unit_m right?");
         }
       }
       faces_.end_face();
@@ -224,7 +224,7 @@ class StlReader {
       coordinate = *value;
     }
     if (!add_point({xyz[0], xyz[1], xyz[2]}))
-      fail(words, {}, "vertex beyond all coordinates on Earth", "no map projection reaches 1e10 m");
+      fail(words, {}, "vertex beyond all coordinates on Earth", "no map projection reaches 1e9 m");
   }
 
   std::string path_;

@@ -28,7 +28,7 @@ struct Cut {
     for (std::size_t t = 0; t < p.mesh.triangle_count(); ++t)
       if (p.mesh.object_names[p.mesh.triangle_object[t].index()] == object &&
           p.mesh.triangle_surface[t] == kind && p.mesh.is_covered(t))
-        sum += norm(p.mesh.area_vector2(t)) / 2;
+        sum += p.mesh.area_m2(t);
     return sum;
   }
 };
@@ -351,7 +351,7 @@ double open_area(const Cut& c, Vec3 normal) {
   double sum = 0;
   for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
     if (c.p.mesh.bears_patches(t) && dot(c.p.mesh.normal(t), normal) > 0.999)
-      sum += norm(c.p.mesh.area_vector2(t)) / 2;
+      sum += c.p.mesh.area_m2(t);
   return sum;
 }
 
@@ -388,7 +388,7 @@ double cut_area_of(const Cut& c, const std::string& object) {
   double sum = 0;
   for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
     if (c.p.mesh.object_names[c.p.mesh.triangle_object[t].index()] == object)
-      sum += norm(c.p.mesh.area_vector2(t)) / 2;
+      sum += c.p.mesh.area_m2(t);
   return sum;
 }
 
@@ -435,7 +435,7 @@ double lit(const Cut& c, const std::string& object, Surface surface) {
   for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
     if (c.p.mesh.object_names[c.p.mesh.triangle_object[t].index()] == object &&
         c.p.mesh.triangle_surface[t] == surface && !c.p.mesh.is_covered(t))
-      sum += norm(c.p.mesh.area_vector2(t)) / 2;
+      sum += c.p.mesh.area_m2(t);
   return sum;
 }
 
@@ -531,7 +531,7 @@ TEST(Covered, AHouseThatIsThereOnceMoreInWholeMillimetresShadesNothing) {
     const auto c = cut(house);
     double open = 0;
     for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t)
-      if (c.p.mesh.bears_patches(t)) open += norm(c.p.mesh.area_vector2(t)) / 2;
+      if (c.p.mesh.bears_patches(t)) open += c.p.mesh.area_m2(t);
     const double once = 2 * (width * 9 + width * 6.6 + 9 * 6.6);
     EXPECT_NEAR(open, once, 1e-3 * once) << width;
     EXPECT_LT(share_behind_something(c.p.mesh), 1e-3) << width;
@@ -550,7 +550,7 @@ TEST(Covered, WindowsInWholeMillimetresOnAWideWallStay) {
   double windows = 0, all = 0;
   for (std::size_t t = 0; t < c.p.mesh.triangle_count(); ++t) {
     if (!c.p.mesh.bears_patches(t)) continue;
-    const double area = norm(c.p.mesh.area_vector2(t)) / 2;
+    const double area = c.p.mesh.area_m2(t);
     all += area;
     if (c.p.mesh.triangle_surface[t] == Surface::window) windows += area;
   }

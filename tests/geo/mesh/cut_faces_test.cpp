@@ -31,7 +31,7 @@ double area_beyond(const Mesh& mesh, const FacePlane& plane) {
       high = std::max(high, beyond);
     }
     EXPECT_FALSE(low < -contact_of(mesh) && high > contact_of(mesh)) << "triangle " << t;
-    if (low + high > 0) sum += norm(mesh.area_vector2(t)) / 2;
+    if (low + high > 0) sum += mesh.area_m2(t);
   }
   return sum;
 }
@@ -116,7 +116,7 @@ TEST(CutFaces, OnlyWhatLiesBetweenTheEndsIsCut) {
     const bool is_west = cut.mesh.corner(t, 0).x == 0 && cut.mesh.corner(t, 1).x == 0 &&
                          cut.mesh.corner(t, 2).x == 0;
     if (is_west) {
-      EXPECT_NEAR(norm(cut.mesh.area_vector2(t)) / 2, 24, rounding_of_cuts);
+      EXPECT_NEAR(cut.mesh.area_m2(t), 24, rounding_of_cuts);
     }
   }
 }
@@ -159,9 +159,9 @@ TEST(CutFaces, SomeTrianglesAlongOnePlaneAfterTheOther) {
       EXPECT_EQ(cut.mesh.triangles[t], before.triangles[source[t]]);
       continue;
     }
-    divided_m2 += norm(cut.mesh.area_vector2(t)) / 2;
+    divided_m2 += cut.mesh.area_m2(t);
     if (!is_roof) continue;
-    roof_m2 += norm(cut.mesh.area_vector2(t)) / 2;
+    roof_m2 += cut.mesh.area_m2(t);
     std::size_t strip = 0;
     const double middle = cut.mesh.point(t, 1.0 / 3, 1.0 / 3).x;
     for (const double x : {2.0, 5.0, 9.0}) strip += middle > x ? 1 : 0;
@@ -174,7 +174,7 @@ TEST(CutFaces, SomeTrianglesAlongOnePlaneAfterTheOther) {
   EXPECT_NEAR(roof_m2, 80, rounding_of_cuts);
   double of_parts = 0;
   for (std::size_t p = 0; p < parts.source.size(); ++p)
-    if (parts.is_divided[parts.source[p]] != 0) of_parts += norm(parts.mesh.area_vector2(p)) / 2;
+    if (parts.is_divided[parts.source[p]] != 0) of_parts += parts.mesh.area_m2(p);
   EXPECT_NEAR(of_parts, divided_m2, rounding_of_cuts);
 }
 

@@ -348,8 +348,7 @@ double wall_above_land(bool has_hole) {
   cut_covered(mesh, p.bodies, std::vector<std::uint8_t>(mesh.triangle_count(), 1), p.seals);
   double area = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.triangle_surface[t] == Surface::wall && !mesh.is_covered(t))
-      area += norm(mesh.area_vector2(t)) / 2;
+    if (mesh.triangle_surface[t] == Surface::wall && !mesh.is_covered(t)) area += mesh.area_m2(t);
   return area;
 }
 
@@ -397,7 +396,7 @@ TEST(Ground, WallsThatEndAboveTheTerrainAreDrawnDown) {
   for (std::size_t t = 0; t < p.mesh.triangle_count(); ++t)
     if (p.mesh.triangle_surface[t] == Surface::wall && !p.mesh.is_covered(t) &&
         p.mesh.object_names[p.mesh.triangle_object[t].index()] == "house")
-      wall += norm(p.mesh.area_vector2(t)) / 2;
+      wall += p.mesh.area_m2(t);
   EXPECT_NEAR(wall, 6 * (10.8 + 9.7) + 2 * 11 * 10.25, 1e-6);
 }
 

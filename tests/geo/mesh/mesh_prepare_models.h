@@ -86,7 +86,7 @@ class ModelBuilder {
 
 inline double area(const Mesh& mesh) {
   double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) sum += norm(mesh.area_vector2(t)) / 2;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) sum += mesh.area_m2(t);
   return sum;
 }
 

@@ -103,7 +103,7 @@ Mesh overlapping(const std::vector<Vec3>& corners) {
 
 double area(const Mesh& mesh) {
   double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) sum += norm(mesh.area_vector2(t)) / 2;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) sum += mesh.area_m2(t);
   return sum;
 }
 

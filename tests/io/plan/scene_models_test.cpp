@@ -63,7 +63,7 @@ TEST_F(Files, StandWhereTheStudyPutsThem) {
 double area_of(const BuiltScene& built) {
   double sum = 0;
   for (std::size_t t = 0; t < built.scene.mesh.triangle_count(); ++t)
-    sum += norm(built.scene.mesh.area_vector2(t)) / 2;
+    sum += built.scene.mesh.area_m2(t);
   return sum;
 }
 

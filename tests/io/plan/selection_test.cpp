@@ -105,7 +105,7 @@ TEST_F(Selections, GiveMaterialsAndChooseSteps) {
   }
   double red = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    if (built.scene.material_of(t).name == "red") red += norm(mesh.area_vector2(t)) / 2;
+    if (built.scene.material_of(t).name == "red") red += mesh.area_m2(t);
   EXPECT_NEAR(red, 100, rounding_m2);
 }
 
@@ -114,7 +114,7 @@ double area_of(const std::string& material, const BuiltScene& built) {
   const Mesh& mesh = built.scene.mesh;
   double sum = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    if (built.scene.material_of(t).name == material) sum += norm(mesh.area_vector2(t)) / 2;
+    if (built.scene.material_of(t).name == material) sum += mesh.area_m2(t);
   return sum;
 }
 

@@ -179,7 +179,7 @@ TEST(SceneBlocks, CrownsStandOnTrunks) {
     if (p.mesh.object_names[p.mesh.triangle_object[t].index()] != "crown_1") continue;
     EXPECT_EQ(p.mesh.triangle_surface[t], Surface::other);
     volume += dot(p.mesh.corner(t, 0), p.mesh.area_vector2(t)) / 6;
-    area += norm(p.mesh.area_vector2(t)) / 2;
+    area += p.mesh.area_m2(t);
   }
   // From 12 to 18 and from 11 to 14: 2 m of the border are shared.
   EXPECT_NEAR(volume, cell * cell * (6 + 3), 1e-9 * 36);

@@ -214,7 +214,7 @@ Glints glints(const Mesh& mesh, double hour_angle_deg) {
     constexpr double towards_street = -0.9;
     if (object_of(mesh, t) != "house_3" || material_of(mesh, t) != "glass" || n.y > towards_street)
       continue;
-    const double area = norm(mesh.area_vector2(t)) / 2;
+    const double area = mesh.area_m2(t);
     result.panes += area;
     const Vec3 at = centroid(mesh, t);
     if (first_hit(mesh, at, sun)) continue;

@@ -59,15 +59,15 @@ Made between_objects(const Scene& scene, double max_edge_m,
   Made made;
   const Hierarchy hierarchy(scene, {.max_edge_m = max_edge_m});
   const RayCaster caster(scene.mesh);
-  PatchDivision division;
+  PatchGrouping grouping;
   for (const Patch& patch : hierarchy.patches())
-    division.group_of.push_back(
+    grouping.group_of.push_back(
         scene.mesh.triangle_object[static_cast<std::size_t>(patch.triangle)].value - 1);
-  division.groups = scene.mesh.object_names.size() - 1;  // the builder's first one has nothing
+  grouping.groups = scene.mesh.object_names.size() - 1;  // the builder's first one has nothing
   Watch watch;
   made.patches = hierarchy.patch_count();
-  made.object = division.group_of;
-  made.factors = group_factors(scene.mesh, hierarchy, caster, division, rules, watch);
+  made.object = grouping.group_of;
+  made.factors = group_factors(scene.mesh, hierarchy, caster, grouping, rules, watch);
   return made;
 }
 
@@ -127,15 +127,15 @@ TEST(GroupFactors, OfPatchesOfNoGroupAreLeftOut) {
   const Scene scene = squares();
   const Hierarchy hierarchy(scene, {.max_edge_m = of_small});
   const RayCaster caster(scene.mesh);
-  PatchDivision division{{}, 2};
+  PatchGrouping grouping{{}, 2};
   for (const Patch& patch : hierarchy.patches())
-    division.group_of.push_back(
+    grouping.group_of.push_back(
         scene.mesh.triangle_object[static_cast<std::size_t>(patch.triangle)].value == 3
             ? -1
             : scene.mesh.triangle_object[static_cast<std::size_t>(patch.triangle)].value - 1);
   Watch watch;
   const GroupFactors factors =
-      group_factors(scene.mesh, hierarchy, caster, division, {.realizations = 2}, watch);
+      group_factors(scene.mesh, hierarchy, caster, grouping, {.realizations = 2}, watch);
   EXPECT_NEAR(factors.area[0], 1, 1e-12);
   EXPECT_NEAR(factors.realizations[0][1], of_opposite_squares, 1e-6);
 }

@@ -47,7 +47,7 @@ TEST(Hierarchy, LeavesTileEveryTriangle) {
     EXPECT_NEAR(dot(n, h.normal(i)), 1, 1e-12);
   }
   for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
-    const double area = norm(scene.mesh.area_vector2(t)) / 2;
+    const double area = scene.mesh.area_m2(t);
     EXPECT_NEAR(front[t], area, 1e-12 * area);
     EXPECT_NEAR(back[t], scene.mesh.triangle_sides[t] == Sides::two ? area : 0, 1e-12 * area);
   }
@@ -63,7 +63,7 @@ TEST(Hierarchy, NeverSplitsBelowTwiceTheLeastArea) {
   const Hierarchy h(scene, {.max_edge_m = 0.1, .min_area_m2 = 0.05});
   for (std::size_t i = 0; i < h.patch_count(); ++i) {
     const auto t = static_cast<std::size_t>(h.patches()[i].triangle);
-    const double whole = norm(scene.mesh.area_vector2(t)) / 2;
+    const double whole = scene.mesh.area_m2(t);
     EXPECT_GE(h.area()[i], std::min(0.05, whole) * (1 - 1e-12));
     // What was not split may not be split: its edge is short or its area small.
     EXPECT_TRUE(longest_edge(h, i) <= 0.1 || h.area()[i] < 0.1) << h.area()[i];
