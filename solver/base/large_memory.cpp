@@ -100,7 +100,16 @@ Aside& aside() {
   return of_process;
 }
 
-#if defined(__SANITIZE_ADDRESS__)
+// GCC defines a macro, Clang has a feature.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SUNLOAD_SANITIZES_ADDRESSES
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define SUNLOAD_SANITIZES_ADDRESSES
+#endif
+
+#if defined(SUNLOAD_SANITIZES_ADDRESSES)
 constexpr bool keeps_aside = false;  // what is used after it was left is to be seen
 #else
 constexpr bool keeps_aside = true;

@@ -48,17 +48,23 @@ double number_of(const json& object, const char* key, double otherwise) {
   return number.is_number() ? number.get<double>() : otherwise;
 }
 
-/// A unit quaternion (x, y, z, w) as axes.
-Affine rotation(const std::array<double, 4>& q) {
+/// A unit quaternion (x, y, z, w) as axes, whatever rounding has made of its length; nothing for
+/// one of another length, which is no rotation.
+std::optional<Affine> rotation(const std::array<double, 4>& q) {
+  constexpr double rounding = 0.02;  // of bytes, of which instances may be
   const auto [x, y, z, w] = q;
-  return {{Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
-           Vec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
-           Vec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}},
-          {}};
+  const double length2 = x * x + y * y + z * z + w * w;
+  if (!(std::abs(length2 - 1) <= rounding)) return {};
+  const double s = 2 / length2;
+  return Affine{{Vec3{1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)},
+                 Vec3{s * (x * y - z * w), 1 - s * (x * x + z * z), s * (y * z + x * w)},
+                 Vec3{s * (x * z + y * w), s * (y * z - x * w), 1 - s * (x * x + y * y)}},
+                {}};
 }
 
 Affine scaling(Vec3 s) { return {{Vec3{s.x, 0, 0}, Vec3{0, s.y, 0}, Vec3{0, 0, s.z}}, {}}; }
 
+constexpr const char* no_rotation = "a rotation is a quaternion of length 1 (glTF 2.0, 5.25)";
 constexpr const char* instancing = "EXT_mesh_gpu_instancing";
 
 class GltfReader {
@@ -139,8 +145,8 @@ class GltfReader {
 
   /// glTF 2.0, 5.25: `matrix`, column by column, or T·R·S.
   Affine placement(const json& node, const json& index) const {
-    const auto refuse = [&](const char* key) {
-      file_.fail("node " + index.dump() + " has a broken '" + key + "'");
+    const auto refuse = [&](const char* key, const std::string& why = {}) {
+      file_.fail("node " + index.dump() + " has a broken '" + key + "'", why);
     };
     if (node.contains("matrix")) {
       const auto m = numbers_of(node, "matrix", 16);
@@ -159,7 +165,9 @@ class GltfReader {
     if (node.contains("rotation")) {
       const auto q = numbers_of(node, "rotation", 4);
       if (!q) refuse("rotation");
-      all = all * rotation({(*q)[0], (*q)[1], (*q)[2], (*q)[3]});
+      const auto turned = rotation({(*q)[0], (*q)[1], (*q)[2], (*q)[3]});
+      if (!turned) refuse("rotation", no_rotation);
+      all = all * *turned;
     }
     if (node.contains("scale")) {
       const auto s = numbers_of(node, "scale", 3);
@@ -193,7 +201,12 @@ class GltfReader {
       return moved;
     });
     take(
-        "ROTATION", [&](const json& accessor) { return file_.quaternions(accessor); }, rotation);
+        "ROTATION", [&](const json& accessor) { return file_.quaternions(accessor); },
+        [&](const std::array<double, 4>& q) {
+          const auto turned = rotation(q);
+          if (!turned) file_.fail("has instances with a broken 'ROTATION'", no_rotation);
+          return *turned;
+        });
     take("SCALE", points, scaling);
     return count ? all : std::vector<Affine>{Affine{}};
   }

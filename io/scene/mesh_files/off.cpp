@@ -3,7 +3,9 @@
 #include "io/scene/mesh_files/off.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include "io/scene/base/indexed_faces.h"
 #include "io/scene/base/words.h"
@@ -52,11 +54,19 @@ class OffReader {
     }
   }
 
-  std::size_t count(std::string_view word) const {
+  /// A whole number; nothing for others.
+  static std::optional<std::size_t> whole_number(std::string_view word) {
     const auto value = finite_number(word);
-    if (!value || *value < 0 || *value > std::numeric_limits<std::int32_t>::max())
-      fail(word, "'" + shortened(word) + "' is no number of vertices, faces or edges");
+    if (!value || *value < 0 || *value > std::numeric_limits<std::int32_t>::max() ||
+        std::floor(*value) != *value)
+      return {};
     return static_cast<std::size_t>(*value);
+  }
+
+  std::size_t count(std::string_view word) const {
+    const auto value = whole_number(word);
+    if (!value) fail(word, "'" + shortened(word) + "' is no number of vertices, faces or edges");
+    return *value;
   }
 
   void read_vertex() {
@@ -79,14 +89,15 @@ class OffReader {
     const auto corners = count(next_word());
     for (std::size_t k = 0; k < corners; ++k) {
       const auto word = next_word();
-      const auto value = finite_number(word);
-      if (!value || *value < 0 || *value >= static_cast<double>(vertices))
+      const auto value = whole_number(word);
+      if (!value || *value >= vertices)
         fail(word, "vertex index " + shortened(word) + " is out of range",
              std::to_string(vertices) + " vertices were read, counted from 0");
       faces_.add_corner(static_cast<std::int32_t>(*value));
     }
     faces_.end_face();
-    words_.go_to_next_line();  // colours
+    if (!words_.next().empty()) faces_.notes().count("colours per face ignored");
+    words_.go_to_next_line();
   }
 
   std::string path_;

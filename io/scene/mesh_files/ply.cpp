@@ -343,6 +343,8 @@ class BodyReader {
     const auto& all = element_->properties;
     if (element_->count > 0 && std::count_if(all.begin(), all.end(), is_corner_list) != 1)
       fail(0, "has no list vertex_indices", "its properties were read from the header");
+    for (const auto& p : all)
+      if (p.name == "red") faces_.notes().count("colours per face ignored", element_->count);
     for (std::size_t f = 0; f < element_->count; ++f) {
       for (const auto& p : all) {
         if (is_corner_list(p))
@@ -357,7 +359,8 @@ class BodyReader {
     const auto count = list_size(property, face);
     for (std::size_t k = 0; k < count; ++k) {
       const double index = number(property.type, face);
-      if (!(index >= 0 && index <= std::numeric_limits<std::int32_t>::max())) {
+      if (!(index >= 0 && index <= std::numeric_limits<std::int32_t>::max()) ||
+          std::floor(index) != index) {
         refuse_index(index, face);
       }
       // Faces may come before their vertices: only the end of the file tells.

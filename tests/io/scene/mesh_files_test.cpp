@@ -72,6 +72,7 @@ TEST(ScenePly, RefusesWhatIsBroken) {
   EXPECT_EQ(refusal("r.ply", head + points + "3 0 1 2\n"), "");
   EXPECT_EQ(refusal("r.ply", head + points + "3 0 1 3\n").substr(0, 6), "r.ply:");
   EXPECT_NE(refusal("r.ply", head + points + "3 0 1 -1\n").find("out of range"), std::string::npos);
+  EXPECT_NE(refusal("r.ply", head + points + "3 0 1.5 2\n"), "");
   EXPECT_NE(refusal("r.ply", head + points + "3 0 1.5e10 1\n").find("out of range"),
             std::string::npos);
   EXPECT_NE(refusal("r.ply", head + points + "-3 0 1 2\n").find("a list of -3"), std::string::npos);
@@ -94,11 +95,16 @@ TEST(SceneOff, HeadersCommentsAndColours) {
       "p.off", "# c\nOFF 3 1 0\n0 0 0\n1 0 0 # v\n\n0 1 3512345.678901\n3 0 1 2 255 0 0\n");
   ASSERT_EQ(plain.polygon_count(), 1u);
   EXPECT_EQ(plain.vertices[2].z, 3512345.678901);
+  EXPECT_TRUE(has_note(plain, "1 colours per face ignored"));
   EXPECT_EQ(
       read_text("c.off", "COFF\n3 1 0\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n3 0 1 2\n")
           .polygon_count(),
       1u);
   EXPECT_NE(refusal("r.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n").find(":6:7: vertex"),
+            std::string::npos);
+  EXPECT_NE(refusal("r.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 1.9\n").find(":6:7: vertex"),
+            std::string::npos);
+  EXPECT_NE(refusal("r.off", "OFF\n3.5 1 0\n").find("'3.5' is no number of vertices"),
             std::string::npos);
   EXPECT_NE(refusal("r.off", "OFF\n3 1 0\n0 0 0\n1 0 x\n").find(":4:5:"), std::string::npos);
   EXPECT_NE(refusal("r.off", "OFF\n3 1 0\n0 0 0\n").find("too early"), std::string::npos);
@@ -235,6 +241,21 @@ TEST(SceneGltf, NodesMaterialsAndAxes) {
     EXPECT_LT(cross(corner(model, p, 0, 1) - a, corner(model, p, 0, 2) - a).y, 0) << p;
   }
   EXPECT_EQ(broken_arrays(model), "");
+}
+
+TEST(SceneGltf, RotationsAreOfUnitLength) {
+  const auto with = [](const std::string& quaternion) {
+    return gltf(R"({"mesh": 0, "rotation": [)" + quaternion + "]}");
+  };
+  // A quarter about z, written with three digits: the corner (1, 1, 0) goes to (-1, 1, 0).
+  const auto turned = read_text("q.gltf", with("0, 0, 0.707, 0.707"));
+  const Vec3 corner_of = corner(turned, 0, 0, 2);
+  EXPECT_NEAR(corner_of.x, -1, 1e-12);
+  EXPECT_NEAR(corner_of.z, 1, 1e-12);
+  const auto said = refusal("q.gltf", with("0, 0, 1, 1"));
+  EXPECT_NE(said.find("broken 'rotation' (a rotation is a quaternion of length 1"),
+            std::string::npos)
+      << said;
 }
 
 // EXT_mesh_gpu_instancing: a row of trees is one mesh and a place for each.
