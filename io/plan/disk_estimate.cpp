@@ -7,6 +7,7 @@
 #include "geo/sky/sky.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/surface_shares.h"
+#include "io/plan/workload.h"
 #include "solver/base/cost.h"
 
 namespace sunload {
@@ -35,6 +36,53 @@ double kept_bytes_of_line(const VariantPlan& plan, double lines_per_patch, bool 
          });
 }
 
+/// Lines and skies and suns of few that a process leaves for those that come later; of sensors
+/// nothing. Written where there are two batches, and the scene is one in all seasons.
+double prepared_bytes(const Workload& work) {
+  const VariantPlan& plan = work.plan;
+  if (plan.batches() < 2 || !plan.seasons.all.empty()) return 0;
+  const double cells = work.has_mirrors ? SkyGrid().cell_count() + 1.0 : 0;  // and the far ground
+  const double sets = plan.study.solver.realizations + 1.0;                  // and all together
+  const double lines_per_patch = work.counts.mean_lines();
+  return sets * (work.patches *
+                     (kept_bytes_per_patch + (work.is_guided ? kept_bytes_per_lit_patch : 0) +
+                      (work.by_matrix ? work.patches * kept_bytes_per_factor : 0)) +
+                 cells * kept_bytes_per_cell) +
+         work.patches * lines_per_patch *
+             kept_bytes_of_line(plan, lines_per_patch, work.is_guided) +
+         work.node_bytes();
+}
+
+/// The result but for series and parts of the period.
+double result_bytes(const Workload& work) {
+  const SolverStudy& s = work.plan.study.solver;
+  const double kinds = work.kinds * result_bytes_per_kind + double_bytes * s.realizations;
+  return bytes_per_result + work.receivers * geometry_bytes_per_patch +
+         work.receivers * static_cast<double>(work.plan.study.measures.size()) * bytes_per_measure +
+         work.bands * work.receivers * (result_bytes_per_patch + kinds);
+}
+
+/// Sun, sky, ledger and facades' means of every interval in batches and result, and what batches
+/// have besides.
+double interval_bytes(const Workload& work) {
+  const auto facades = static_cast<double>(work.plan.built.scene.mesh.facades.size());
+  return work.batches * bytes_per_batch +
+         static_cast<double>(work.plan.intervals()) * work.bands * stored_bytes_per_interval +
+         2 * work.lit * work.bands * facades * work.value_bytes;
+}
+
+/// Of parts of the period, in batches and in the result, for each receiver and band.
+double bytes_of_parts(const Workload& work) {
+  // Of every part: all light, the direct one, sun hours; with errors the realizations, too.
+  constexpr double sums_of_part = 3, values_of_part = 4;
+  const double realizations = work.plan.study.solver.realizations;
+  const auto& of = work.periods;
+  return static_cast<double>(of.stored) * sums_of_part * double_bytes +
+         static_cast<double>(of.stored_with_errors) * float_bytes * realizations +
+         float_bytes * (static_cast<double>(of.parts) * values_of_part +
+                        static_cast<double>(of.parts_with_errors) * realizations);
+}
+
 }  // namespace
 
 SeriesBytes series_bytes(const VariantPlan& plan, double series, double value_bytes) {
@@ -54,33 +102,10 @@ SeriesBytes series_bytes(const VariantPlan& plan, double series, double value_by
       batches * of_steps + watched * lit * stored_bytes_per_value + steps * series * value_bytes};
 }
 
-double prepared_bytes(const VariantPlan& plan, double patches, double lines_per_patch, bool guided,
-                      double node_bytes) {
-  if (plan.batches() < 2 || !plan.seasons.all.empty()) return 0;
-  const auto materials = materials_of(plan);
-  const bool sent_on = std::any_of(materials.begin(), materials.end(), sends_on);
-  const double cells = sent_on ? SkyGrid().cell_count() + 1.0 : 0;  // and the far ground
-  const bool by_matrix = plan.study.solver.transport == Transport::matrix;
-  const double sets = plan.study.solver.realizations + 1.0;  // and all together
-  return sets * (patches * (kept_bytes_per_patch + (guided ? kept_bytes_per_lit_patch : 0) +
-                            (by_matrix ? patches * kept_bytes_per_factor : 0)) +
-                 cells * kept_bytes_per_cell) +
-         patches * lines_per_patch * kept_bytes_of_line(plan, lines_per_patch, guided) + node_bytes;
-}
-
-double result_bytes(const VariantPlan& plan, double n, double parts, double bands) {
-  const double kinds =
-      parts * result_bytes_per_kind + double_bytes * plan.study.solver.realizations;
-  return bytes_per_result + n * geometry_bytes_per_patch +
-         n * static_cast<double>(plan.study.measures.size()) * bytes_per_measure +
-         bands * n * (result_bytes_per_patch + kinds);
-}
-
-double interval_bytes(const VariantPlan& plan, double bands, double value_bytes) {
-  const auto facades = static_cast<double>(plan.built.scene.mesh.facades.size());
-  return static_cast<double>(plan.batches()) * bytes_per_batch +
-         static_cast<double>(plan.intervals()) * bands * stored_bytes_per_interval +
-         2 * static_cast<double>(lit_intervals(plan)) * bands * facades * value_bytes;
+double disk_bytes(const Workload& work) {
+  return work.bands * work.receivers *
+             (work.series.on_disk + work.batches * work.batch_sum_bytes() + bytes_of_parts(work)) +
+         result_bytes(work) + interval_bytes(work) + prepared_bytes(work);
 }
 
 }  // namespace sunload

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "io/base/machine.h"
+#include "io/plan/memory_estimate.h"
 
 namespace sunload {
 

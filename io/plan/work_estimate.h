@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Work, memory, disk and time of a variant, estimated before it starts (docs/scaling.md).
+/// Work, memory, disk and time of a variant, estimated before it starts (docs/scaling.md): what
+/// io/plan/workload counts, and what that takes.
 #pragma once
 
 #include <cstdint>
@@ -41,9 +42,6 @@ WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const W
 WorkEstimate estimate_work(const VariantPlan& plan, std::size_t patches, const SampleCounts& counts,
                            const WorkPace& pace = {});
 
-/// Whether few solutions will serve the period, as far as that is known before they are tried.
-bool is_year_of_few(const VariantPlan& plan);
-
 /// One block of suns, each interval solved by gathering, on few lines.
 struct BlockCounts {
   int lines_per_patch = 0, direct_samples = 0;
@@ -60,8 +58,5 @@ WorkSeconds modelled_seconds(const VariantPlan& plan, std::size_t patches,
 /// Least and most time that refining a mesh of so many patches takes [s]; the light decides how
 /// many patches it makes.
 std::pair<double, double> refinement_seconds(const VariantPlan& plan, std::size_t patches);
-
-/// Memory of the accuracy pilot.
-double accuracy_pilot_memory_bytes(const VariantPlan& plan, std::size_t patches);
 
 }  // namespace sunload

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What work costs: the page about it has the program's own numbers.
 #include "io/plan/work_estimate.h"
+#include "io/plan/workload.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
