@@ -182,7 +182,7 @@ int write_edited(const BuiltinOptions& options) {
   if (!options.variant.empty()) chosen.variants = {options.variant};
   const Study study = chosen_variants(file, chosen).front();
   expect_scene_not_read(options.path, named_files(file));
-  PolygonModel model = edited(read_models(study), study);
+  PolygonModel model = edited(read_models(study), study).model;
   expect_scene_not_read(options.path, model.files);
   if (!study.site.crs.empty()) model.crs = study.site.crs;
   tell_warnings(model.warnings);

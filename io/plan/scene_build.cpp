@@ -245,7 +245,8 @@ BuiltScene scene_before_materials(const Study& study) {
   // Steps that edit it leave the site where it is: variants have one sun, and stay paired.
   const bool is_empty = as_read.vertices.empty(), had_polygons = as_read.polygon_count() > 0;
   if (!is_empty) built.site = resolve_site(study, as_read, built);
-  const PolygonModel model = edited(std::move(as_read), study);
+  const auto [model, placed] = edited(std::move(as_read), study);
+  built.placed = placed;
   if (had_polygons && model.polygon_count() == 0)
     throw InputError(study.scene.edit.back().where, "scene.edit leaves nothing of the scene",
                      "its steps take out all that the files have", "let some object stay");
@@ -394,8 +395,7 @@ BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
   }
   warn_of_doubled(find_doubled(built.scene.mesh), built.scene.mesh, receive_twice, built);
   expect_patches(study, built.scene.mesh);
-  if (const auto buried = buried_warning(study, built.scene.mesh); !buried.empty())
-    built.warnings.push_back(buried);
+  tell_of_hidden(study, built);
   built.bodies = {};
   built.seals.clear();
   return built;

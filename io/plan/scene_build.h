@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct BuiltScene {
   std::vector<std::string> files;     ///< of the scene, with those that they draw in
   std::vector<std::string> notes;     ///< what readers counted
   std::vector<std::string> warnings;  ///< each states its consequence
+  std::set<std::string> placed;       ///< names of objects that steps added, moved or turned
   std::vector<RuleUse> rules;         ///< of scene.assign, in their order
   std::vector<Sides> sides_of_files;  ///< per triangle, before materials decided
   /// Per triangle 1 where its back is in a house, and is no patch whatever its material says;

@@ -232,33 +232,59 @@ std::vector<std::size_t> tops_of_covered(const Mesh& mesh) {
   return top;
 }
 
+/// Names of some, and how many there are.
+class NamesOfSome {
+ public:
+  void add(const std::string& name) {
+    if (count_++ < most_named) names_ += (count_ > 1 ? ", " : "") + name;
+  }
+  std::size_t count() const { return count_; }
+  /// `3 objects lie wholly inside others: a, b, c`.
+  std::string lie(const std::string& where) const {
+    return fmt::format("{} object{} wholly {}: {}{}", count_, count_ == 1 ? " lies" : "s lie",
+                       where, names_, count_ > most_named ? ", …" : "");
+  }
+
+ private:
+  static constexpr std::size_t most_named = 5;
+  std::string names_;
+  std::size_t count_ = 0;
+};
+
+/// How far the land is above a point [m]; 0 where it is not.
+double depth_below(const PlanTriangles& land, Vec3 point) {
+  double deepest = 0;
+  land.visit_heights(point.x, point.y,
+                     [&](std::size_t, double z) { deepest = std::max(deepest, z - point.z); });
+  return deepest;
+}
+
 }  // namespace
 
-std::string buried_warning(const Study& study, const Mesh& mesh) {
+void tell_of_hidden(const Study& study, BuiltScene& built) {
   constexpr double deep_m = 0.3;  // less lies under a terrain that is drawn to decimetres
-  constexpr std::size_t most_named = 5;
+  const Mesh& mesh = built.scene.mesh;
   const PlanTriangles land(mesh, land_triangles(mesh));
   const std::vector<std::size_t> tops = tops_of_covered(mesh);
-  std::string names;
-  std::size_t count = 0;
+  NamesOfSome buried, placed_inside, inside;
   for (std::size_t o = 0; o < tops.size(); ++o) {
     if (tops[o] == no_triangle) continue;
-    const Vec3 top = centre_of_triangle(mesh, tops[o]);
-    double deepest = 0;
-    land.visit_heights(top.x, top.y,
-                       [&](std::size_t, double z) { deepest = std::max(deepest, z - top.z); });
-    if (deepest < deep_m) continue;
-    if (count++ < most_named)
-      names +=
-          fmt::format("{}{} by {:.2f} m", count > 1 ? ", " : "", mesh.object_names[o], deepest);
+    const std::string& name = mesh.object_names[o];
+    const double depth_m = depth_below(land, centre_of_triangle(mesh, tops[o]));
+    if (depth_m >= deep_m)
+      buried.add(fmt::format("{} by {:.2f} m", name, depth_m));
+    else
+      (built.placed.contains(name) ? placed_inside : inside).add(name);
   }
-  if (count == 0) return {};
-  return message(
-      study.scene.where,
-      fmt::format("{} object{} wholly below the land ({}{})", count, count == 1 ? " lies" : "s lie",
-                  names, count > most_named ? ", …" : ""),
-      "no light reaches them, and they are in no result",
-      "are cellars meant, or have the files heights of two systems?");
+  const char* const unseen = "no light reaches them, and they are in no result";
+  if (buried.count() > 0)
+    built.warnings.push_back(
+        message(study.scene.where, buried.lie("below the land"), unseen,
+                "are cellars meant, or have the files heights of two systems?"));
+  if (placed_inside.count() > 0)
+    built.warnings.push_back(message(study.scene.where, placed_inside.lie("inside others"), unseen,
+                                     "are the places of scene.edit right?"));
+  if (inside.count() > 0) built.notes.push_back(inside.lie("inside others") + "; " + unseen);
 }
 
 void warn_of_reflectances(const Study& study, BuiltScene& built) {

@@ -21,9 +21,10 @@ std::string lone_piece_warning(const Study& study, const BuiltScene& prepared);
 /// empty where shadows are as good as the same.
 std::string north_warning(const SiteStudy& given, const std::string& crs, double map_north_deg);
 
-/// Warns of objects that lie wholly below the land, as where files have heights of two systems;
-/// empty where there are none. `mesh`: after what is covered is cut.
-std::string buried_warning(const Study& study, const Mesh& mesh);
+/// Warns of objects that lie wholly below the land, as where files have heights of two systems, and
+/// of those that a step of `scene.edit` has put inside of others; notes others that lie so. To be
+/// called after what is covered is cut.
+void tell_of_hidden(const Study& study, BuiltScene& built);
 
 /// Warns of colours for display that became reflectances, and of walls that reflect more than any
 /// real ones do. To be called after materials are given.

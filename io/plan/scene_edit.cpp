@@ -32,7 +32,7 @@ class SceneEditor {
  public:
   SceneEditor(PolygonModel model, const Study& study) : model_(std::move(model)), study_(study) {}
 
-  PolygonModel run() {
+  EditedModel run() {
     Problems problems;
     bool lacks_objects = false;  // that steps may go on to name
     for (std::size_t s = 0; s < study_.scene.edit.size() && !lacks_objects; ++s) {
@@ -46,7 +46,7 @@ class SceneEditor {
       }
     }
     problems.throw_if_any();
-    return std::move(model_);
+    return {std::move(model_), std::move(placed_)};
   }
 
  private:
@@ -144,6 +144,12 @@ class SceneEditor {
                                        names.size(), names.size() == 1 ? "" : "s",
                                        fmt::join(names.begin(), shown, ", "),
                                        names.size() > most_told ? ", …" : "", besides));
+  }
+
+  /// The same of objects that stand elsewhere now, or were not there before.
+  void tell_placed(const std::string& what, const std::vector<std::string>& names) {
+    tell(what, names);
+    placed_.insert(names.begin(), names.end());
   }
 
   // --- what it does -----------------------------------------------------------------------
@@ -256,7 +262,7 @@ class SceneEditor {
   void apply(const MoveEdit& move) {
     const ChosenObjects all = chosen();
     displace_objects(model_, all, [&](Vec3 p) { return p + move.by; });
-    tell("moves", names_of(all));
+    tell_placed("moves", names_of(all));
   }
 
   void apply(const TurnEdit& turn) {
@@ -274,7 +280,7 @@ class SceneEditor {
     about.z = 0;
     const FilePlace place = file_place(about, turn.by_deg);
     displace_objects(model_, all, [&](Vec3 p) { return place(p - about); });
-    tell(fmt::format("turns by {:g} degrees", turn.by_deg), names_of(all));
+    tell_placed(fmt::format("turns by {:g} degrees", turn.by_deg), names_of(all));
   }
 
   void apply(const ReplaceEdit& replace) {
@@ -295,8 +301,8 @@ class SceneEditor {
     part.crs.clear();
     const std::size_t before = model_.object_names.size();
     append(model_, part);
-    tell("adds", {model_.object_names.begin() + static_cast<std::ptrdiff_t>(before),
-                  model_.object_names.end()});
+    tell_placed("adds", {model_.object_names.begin() + static_cast<std::ptrdiff_t>(before),
+                         model_.object_names.end()});
   }
 
   double base_of(const std::optional<double>& base_m, Point2 at) const {
@@ -321,7 +327,7 @@ class SceneEditor {
     auto taken = names_taken();
     const std::string name = unused_name(add.name, taken);
     add_prism(model_, areas, base, base + add.height_m, {name, kind_of("Building"), add.material});
-    tell(fmt::format("adds, from z = {:.2f} m,", base), {name});
+    tell_placed(fmt::format("adds, from z = {:.2f} m,", base), {name});
   }
 
   void apply(const AddTreesEdit& add) {
@@ -348,7 +354,7 @@ class SceneEditor {
       add_tree(model_, {places[i].u, places[i].v, feet[i]}, add.shape,
                {names.back(), "SolitaryVegetationObject", ""});
     }
-    tell("adds", names);
+    tell_placed("adds", names);
   }
 
   /// Types are of cities alone: in plain files all are decided by shape, but for trees, whose
@@ -358,6 +364,7 @@ class SceneEditor {
   static constexpr double most_trees = 10'000;
 
   PolygonModel model_;
+  std::set<std::string> placed_;
   const Study& study_;
   const EditStep* step_ = nullptr;
   std::size_t number_ = 0;
@@ -365,8 +372,9 @@ class SceneEditor {
 
 }  // namespace
 
-PolygonModel edited(PolygonModel model, const Study& study) {
-  return study.scene.edit.empty() ? std::move(model) : SceneEditor(std::move(model), study).run();
+EditedModel edited(PolygonModel model, const Study& study) {
+  if (study.scene.edit.empty()) return {std::move(model), {}};
+  return SceneEditor(std::move(model), study).run();
 }
 
 }  // namespace sunload

@@ -38,7 +38,7 @@ class Families : public testing::Test {
   }
   PolygonModel model(const std::string& steps, const std::string& more = "") const {
     const Study with_steps = study("edit: [" + steps + "]", more);
-    return edited(read_models(with_steps), with_steps);
+    return edited(read_models(with_steps), with_steps).model;
   }
   std::string refusal(const std::string& steps) const {
     return refusal_of([&] { model(steps); });

@@ -29,7 +29,7 @@ class SceneEdit : public testing::Test {
   }
   PolygonModel model(const std::string& steps) const {
     const Study with_steps = study(steps);
-    return edited(read_models(with_steps), with_steps);
+    return edited(read_models(with_steps), with_steps).model;
   }
   std::string refusal(const std::string& steps) const {
     return refusal_of([&] { model(steps); });
@@ -191,7 +191,7 @@ TEST_F(SceneEdit, PutsThingsOntoATerrainOfARaster) {
                 "0 10 20\n0 10 20\n0 10 20\n");
   Study with = study("{add: {box: {position_m: [40, 60], size_m: [4, 6, 3]}}}");
   with.scene.files.front().path = folder_ / "dem.asc";
-  const auto m = edited(read_models(with), with);
+  const auto m = edited(read_models(with), with).model;
   EXPECT_EQ(box_of(m, "box").low.z, 5);  // between the cells of 0 and 10 m
 }
 
@@ -293,6 +293,28 @@ TEST_F(SceneEdit, RefusesWhatCannotBeRaised) {
   folder_.write("town.obj", "o plate\nv 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
   const std::string said = refusal("{object: plate, raise: {by_m: 3}}");
   EXPECT_NE(said.find("scene.edit[1]: plate has no roof"), said.npos) << said;
+}
+
+TEST_F(SceneEdit, WhatItPutsInsideOfOthersIsWarnedOf) {
+  const auto warnings = [&](const std::string& steps) {
+    std::string all;
+    for (const auto& warning : build_scene(study(steps)).warnings) all += warning + "\n";
+    return all;
+  };
+  const auto names = [](const std::string& text, const std::string& what) {
+    return text.find(what) != std::string::npos;
+  };
+  const std::string inside = "1 object lies wholly inside others: ";
+  const auto tree =
+      warnings("{add: {tree: {position_m: [5, 5, 0], height_m: 4, crown_m: 2, trunk_m: 1}}}");
+  EXPECT_TRUE(names(tree, inside + "tree (no light reaches them")) << tree;
+  const auto moved = warnings(
+      "{add: {name: kiosk, box: {position_m: [60, 5, 0], size_m: [3, 3, 3]}}}, "
+      "{object: kiosk, move_m: [-35, 0, 0]}");
+  EXPECT_TRUE(names(moved, inside + "kiosk")) << moved;
+  const auto beside =
+      warnings("{add: {name: kiosk, box: {position_m: [60, 5, 0], size_m: [3, 3, 3]}}}");
+  EXPECT_FALSE(names(beside, "inside others")) << beside;
 }
 
 }  // namespace
