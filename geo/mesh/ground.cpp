@@ -436,6 +436,9 @@ class GroundMaker {
 Standing standing_on(const Mesh& mesh, const std::vector<Foot>& feet,
                      const std::optional<GroundRules>& rules, std::size_t body_count) {
   Standing standing;
+  standing.on_body.assign(body_count, 0);
+  for (const Foot& foot : feet)
+    if (foot.stance == Stance::body) standing.on_body[static_cast<std::size_t>(foot.body)] = 1;
   if (!rules) return standing;
   standing.level_z = level_z(mesh, feet, *rules);
   if (standing.level_z) return standing;

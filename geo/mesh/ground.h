@@ -62,6 +62,7 @@ struct GroundReport {
 struct Standing {
   std::optional<double> level_z;        ///< of a plate, in the mesh's z
   std::vector<std::uint8_t> on_ground;  ///< per body: the ground will go through its feet
+  std::vector<std::uint8_t> on_body;    ///< per body: it stands on another one, perhaps in part
 };
 /// Without rules nobody stands on a ground.
 Standing standing_on(const Mesh& mesh, const std::vector<Foot>& feet,

@@ -187,13 +187,16 @@ std::vector<Foot> settle(Mesh& mesh, const PrepareRules& rules, const PolygonMod
     ++report.sheets_merged;
   }
   const auto kind = model.is_city_format ? SceneKind::city : SceneKind::plain;
-  auto feet = rules.ground ? find_feet(mesh, bodies, kind) : std::vector<Foot>{};
+  // What stands on another body has an underside, whatever the ground is.
+  const bool asks_for_feet = rules.ground.has_value() || kind == SceneKind::city;
+  auto feet = asks_for_feet ? find_feet(mesh, bodies, kind) : std::vector<Foot>{};
   const Standing standing = standing_on(mesh, feet, rules.ground, bodies.bodies.size());
   if (rules.orientation == Orientation::outward)
     report.looks_down = find_looking_down(mesh, bodies, kind);
   decide_surfaces(mesh, bodies, kind, standing);
   report.sunk = find_sunk_walls(mesh, bodies);
   if (!standing.on_ground.empty()) take_floors(mesh, feet);
+  if (!rules.ground) feet.clear();
   return feet;
 }
 

@@ -63,8 +63,12 @@ class Decision {
 
   void run() {
     for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
-      if (mesh_.triangle_surface[t] != Surface::other) continue;
-      if (const auto s = slope_of(mesh_, t)) mesh_.triangle_surface[t] = surface(t, *s);
+      Surface& kind = mesh_.triangle_surface[t];
+      // A file calls the underside of what juts out over the street so, too.
+      if (kind == Surface::floor && is_on_body(t) && slope_of(mesh_, t) == Slope::downward)
+        kind = Surface::other;
+      if (kind != Surface::other) continue;
+      if (const auto s = slope_of(mesh_, t)) kind = surface(t, *s);
     }
     if (!low_faces_.empty()) find_floors();
   }
@@ -73,6 +77,12 @@ class Decision {
   const Body* body_of(std::size_t t) const {
     const auto b = bodies_.triangle_body[t];
     return b < 0 ? nullptr : &bodies_.bodies[static_cast<std::size_t>(b)];
+  }
+
+  bool is_on_body(std::size_t t) const {
+    const auto b = bodies_.triangle_body[t];
+    return b >= 0 && !standing_.on_body.empty() &&
+           standing_.on_body[static_cast<std::size_t>(b)] != 0;
   }
 
   Surface surface(std::size_t t, Slope s) {
@@ -88,7 +98,7 @@ class Decision {
     if (body && body->is_inside_out) return Surface::other;
     if (s == Slope::upward) return Surface::roof;
     if (!is_at_foot(t, body)) return Surface::other;
-    if (kind_ == SceneKind::city) return Surface::floor;
+    if (kind_ == SceneKind::city && !is_on_body(t)) return Surface::floor;
     low_faces_.push_back(t);
     return Surface::other;
   }
@@ -108,7 +118,8 @@ class Decision {
     return true;
   }
 
-  /// Of the low faces of a plain scene's bodies those that touch what is below.
+  /// Of the low faces of a plain scene's bodies, and of a city's bodies on others, those that touch
+  /// what is below.
   void find_floors() {
     const Supports supports(mesh_, bodies_);
     for (const std::size_t t : low_faces_) {

@@ -217,6 +217,64 @@ TEST(Ground, BodiesOnBodiesBaysAndBalconiesAreNoFeet) {
   EXPECT_NEAR(p.report.ground->gap_m.back(), 0, ground_rounding);
 }
 
+/// Open undersides at a height.
+double underside(const Mesh& mesh, double z) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    if (slope_of(mesh, t) == Slope::downward && mesh.bears_patches(t) &&
+        std::abs(mesh.corner(t, 0).z + mesh.origin.z - z) < 1e-3)
+      sum += mesh.area_m2(t);
+  return sum;
+}
+
+/// A slab on a core, columns under a corner, a house that juts out over a lower one: most of the
+/// foot is free, and land that climbed to it would bury what carries it.
+TEST(Ground, WhatRestsOnALowerBodyInPartStandsOnIt) {
+  struct Carrier {
+    Vec3 low, high;
+  };
+  for (const Carrier& carrier :
+       {Carrier{{6, 3, 0}, {10, 7, 4}}, Carrier{{0, 0, 0}, {7, 10, 4}},
+        Carrier{{1, -1.4, 0}, {12, 7, 4}}, Carrier{{15, 9, 0}, {16, 10, 4}}})
+    for (const bool has_land : {false, true}) {
+      auto builder = ModelBuilder().city().object("high", "Building");
+      builder.box({0, 0, 4}, {16, 10, 14});
+      builder.object("low", "Building").box(carrier.low, carrier.high);
+      builder.object("west", "Building").box({-20, 0, 0}, {-8, 10, 8});
+      builder.object("east", "Building").box({24, 0, 0}, {34, 10, 8});
+      if (has_land)
+        builder.object("land", "LandUse")
+            .ring({{-60, -60, 0}, {60, -60, 0}, {60, 60, 0}, {-60, 60, 0}});
+      const auto p = builder.prepared(on_feet());
+      const GroundReport& ground = *p.report.ground;
+      EXPECT_EQ(ground.on_others, 1u) << carrier.low.x;
+      EXPECT_EQ(ground.standing, 3u) << carrier.low.x;
+      EXPECT_EQ(ground.hovering.size(), 0u) << carrier.low.x;
+      EXPECT_EQ(ground.drawn, 0u) << carrier.low.x;
+      for (const double z : ground_at(p.mesh, 8, -2)) EXPECT_NEAR(z, 0, ground_rounding);
+      EXPECT_NEAR(underside(p.mesh, 4), 160, 1e-6);  // what touches is cut out later
+    }
+}
+
+/// The other way round: a garage dug into the slope below a house, whose neighbours stand as high,
+/// or the land does.
+TEST(Ground, AHouseOverAGarageInTheSlopeStandsOnTheLand) {
+  for (const bool has_land : {false, true}) {
+    auto builder = ModelBuilder().city().object("house", "Building");
+    builder.box({0, 0, 3}, {16, 10, 12});
+    builder.object("garage", "Building").box({4, -2, 0}, {8, 6, 3});
+    builder.object("west", "Building").box({-20, 0, 3}, {-8, 10, 8});
+    builder.object("east", "Building").box({24, 0, 3}, {34, 10, 8});
+    if (has_land)
+      builder.object("land", "LandUse")
+          .ring({{-60, -2, 2.5}, {60, -2, 2.5}, {60, 60, 3}, {-60, 60, 3}});
+    const auto p = builder.prepared(on_feet());
+    EXPECT_EQ(p.report.ground->on_others, 0u) << has_land;
+    if (has_land) continue;
+    for (const double z : ground_at(p.mesh, 14, -0.5)) EXPECT_GT(z, 2) << z;
+  }
+}
+
 /// Panes of a plain file, before a wall or set back into it: land would climb to their sills.
 TEST(Ground, PanesOnWallsHaveNoFeet) {
   for (const double before : {0.0, 0.03, -0.2}) {
