@@ -49,6 +49,8 @@ class TimeZone {
 
 /// "2026-06-21T12:00:00Z", rounded to the second (fractions shown where not zero).
 std::string iso_utc(UnixTime utc);
+/// An offset from UTC [s], to the minute, as a TimeZone takes it: "+02:00".
+std::string offset_text(double offset_s);
 /// "2026-06-21 14:00 +02:00" in that zone.
 std::string iso_local(UnixTime utc, const TimeZone& zone);
 

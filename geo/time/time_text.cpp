@@ -61,15 +61,18 @@ std::string iso_utc(UnixTime utc) {
                      t.minute, t.second, parts == 0 ? "" : fmt::format(".{:03}", parts));
 }
 
+std::string offset_text(double offset_s) {
+  const auto minutes = static_cast<int>(std::lround(std::abs(offset_s) / seconds_per_minute));
+  return fmt::format("{}{:02}:{:02}", offset_s < 0 && minutes > 0 ? '-' : '+',
+                     minutes / minutes_per_hour, minutes % minutes_per_hour);
+}
+
 std::string iso_local(UnixTime utc, const TimeZone& zone) {
   const double rounded = std::round(utc);
   const CivilTime t = zone.civil_from_utc(rounded);
-  const auto offset_min =
-      static_cast<int>(std::lround(zone.offset_s(rounded) / seconds_per_minute));
-  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}{} {}{:02}:{:02}", t.year, t.month, t.day,
-                     t.hour, t.minute, t.second > 0 ? fmt::format(":{:02.0f}", t.second) : "",
-                     offset_min < 0 ? '-' : '+', std::abs(offset_min) / minutes_per_hour,
-                     std::abs(offset_min) % minutes_per_hour);
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}{} {}", t.year, t.month, t.day, t.hour, t.minute,
+                     t.second > 0 ? fmt::format(":{:02.0f}", t.second) : "",
+                     offset_text(zone.offset_s(rounded)));
 }
 
 ParsedTime parse_time(const std::string& text) {

@@ -41,6 +41,9 @@ void add_corrections(const Command& command, InitRules& rules) {
   command.choice("--up", rules.up, {{"x", "x"}, {"y", "y"}, {"z", "z"}},
                  "axis of the file that points up");
   command.option("--unit-m", rules.unit_m, "length of the file's unit [m], e.g. 0.001").positive();
+  command.option("--height", rules.height,
+                 "column of heights of plan data (default: by usual names)");
+  command.option("--storeys", rules.storeys, "column of its numbers of storeys");
 }
 
 void add_progress(const Command& command, RunOptions& options) {

@@ -149,6 +149,11 @@ class ModelWriter {
   void write(std::ostream& out) {
     const auto bytes = read_whole_file(path_);
     std::string_view text = without_byte_order_mark(bytes);
+    if (const auto first = text.find_first_not_of(" \t\r\n");
+        first != text.npos && text[first] == '<')
+      throw InputError({path_}, "is no CityJSON", "it is of XML, as CityGML is",
+                       "leave --model out: every patch becomes a surface; or run the study of a "
+                       "CityJSON of the model (sunload scene STUDY -o FILE.city.json)");
     json header;
     for (int line = 0; text.find_first_not_of(" \t\r\n") != text.npos; ++line) {
       const auto end = std::min(first_json_value_end(path_, text), text.size());

@@ -78,6 +78,10 @@ void look_at_site(const InitRules& rules, const BuiltScene& built, Findings& fou
   if (found.site)
     found.zone = guessed_zone(found.site->latitude_deg, found.site->longitude_deg, offset,
                               found.crs.empty() ? "" : area_of_use_words(found.crs));
+  // That of another country, whose summer times are its own: better the weather's offset alone.
+  constexpr double other_country_m = 1000e3;
+  if (offset && found.zone && found.zone->away_m > other_country_m)
+    found.zone = ZoneGuess{offset_text(*offset), 0};
   if (has_station && found.site && !found.is_at_station)
     found.station_away_m =
         distance_m(*found.site, {.latitude_deg = found.weather->place->latitude_deg,
@@ -174,6 +178,8 @@ SceneFileStudy scene_file_of(const InitRules& rules) {
   file.where = {rules.model, 0, 0};
   file.terrain = rules.terrain;
   file.canopy = rules.canopy;
+  file.footprints.height = rules.height;
+  file.footprints.storeys = rules.storeys;
   if (!rules.up.empty()) file.up = rules.up.front();
   if (rules.unit_m != 1) file.unit_m = rules.unit_m;
   return file;

@@ -24,6 +24,7 @@ struct InitRules {
   std::string model = {};                 ///< any scene file
   std::string weather = {};               ///< empty: clear sky
   std::string terrain = {}, canopy = {};  ///< rasters beside a raster of surfaces
+  std::string height = {}, storeys = {};  ///< columns of footprints; empty: of usual names
   std::string crs = {};                   ///< empty: what the model names
   std::string at = {};         ///< latitude and longitude in words (site_from_text); empty: unknown
   std::string zone = {};       ///< empty: a guess

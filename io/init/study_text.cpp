@@ -74,7 +74,8 @@ std::string head_text(const std::string& name, const InitRules& rules) {
 
 std::string zone_text(const InitRules& rules, const Findings& found) {
   if (!rules.zone.empty()) return quoted(rules.zone);
-  return found.zone ? found.zone->name : "UTC";
+  if (!found.zone) return "UTC";
+  return found.zone->away_m > 0 ? found.zone->name : quoted(found.zone->name);
 }
 
 std::string zone_comment(const InitRules& rules, const Findings& found) {
@@ -84,6 +85,9 @@ std::string zone_comment(const InitRules& rules, const Findings& found) {
         "# {} times are in UTC: no table of time zones is here; write e.g. "
         "Europe/Berlin\n",
         mark);
+  if (found.zone->away_m == 0)
+    return fmt::format(
+        "# {} timezone: the weather's offset from UTC; its zone would know summer times\n", mark);
   return fmt::format(
       "# {} timezone: that of the nearest place in the table of zones, {:.0f} km away; borders are "
       "not known to it\n",
@@ -231,8 +235,8 @@ std::string found_text(const Findings& found) {
 }
 
 std::string file_text(const InitRules& rules, const std::string& folder) {
-  const bool is_plain =
-      rules.terrain.empty() && rules.canopy.empty() && rules.up.empty() && rules.unit_m == 1;
+  const bool is_plain = rules.terrain.empty() && rules.canopy.empty() && rules.height.empty() &&
+                        rules.storeys.empty() && rules.up.empty() && rules.unit_m == 1;
   if (is_plain) return fmt::format("  files: [{}]\n", path_from(folder, rules.model));
   std::string text = fmt::format("  files:\n    - file: {}\n", path_from(folder, rules.model));
   if (rules.is_up_guessed)
@@ -243,6 +247,12 @@ std::string file_text(const InitRules& rules, const std::string& folder) {
     text += fmt::format("      terrain: {}\n", path_from(folder, rules.terrain));
   if (!rules.canopy.empty())
     text += fmt::format("      canopy: {}\n", path_from(folder, rules.canopy));
+  if (!rules.height.empty() || !rules.storeys.empty()) {
+    const std::string height = rules.height.empty() ? "" : "height: " + quoted(rules.height),
+                      storeys = rules.storeys.empty() ? "" : "storeys: " + quoted(rules.storeys);
+    text += fmt::format("      footprints: {{{}{}{}}}\n", height,
+                        height.empty() || storeys.empty() ? "" : ", ", storeys);
+  }
   if (!rules.up.empty()) text += fmt::format("      up: {}\n", rules.up);
   if (rules.is_unit_of_crs)
     text += fmt::format("      # {} unit_m of the CRS; 1 where the file has metres all the same\n",

@@ -24,11 +24,6 @@ constexpr double good_closure_w_m2 = 10;
 /// A shift that leaves less than half of the residual is no chance.
 constexpr double telling_share = 0.5;
 
-std::string offset_words(double offset_s) {
-  const auto minutes = static_cast<int>(std::lround(std::abs(offset_s) / seconds_per_minute));
-  return fmt::format("{}{:02}:{:02}", offset_s < 0 ? '-' : '+', minutes / 60, minutes % 60);
-}
-
 /// The records that overlap an interval of the path. What lies between its days is nobody's.
 std::vector<DatedWeather> used_by(const SunPath& path, const std::vector<DatedWeather>& all) {
   std::vector<DatedWeather> used;
@@ -80,8 +75,8 @@ void StudyWeather::expect_one_offset() const {
     if (offset_s(year) != offset_s(first))
       throw InputError({file_.path},
                        fmt::format("standard time of {} was UTC{} in {} and is UTC{} in {}",
-                                   study_.site.timezone, offset_words(offset_s(first)), first,
-                                   offset_words(offset_s(year)), year),
+                                   study_.site.timezone, offset_text(offset_s(first)), first,
+                                   offset_text(offset_s(year)), year),
                        "the file does not say which one it keeps",
                        "write times with an offset (2017-06-21T12:00+03:00), or a file of each");
 }
@@ -269,7 +264,7 @@ DayAlbedos StudyWeather::albedos(const SunPath& path) const {
 void StudyWeather::say_file() {
   const WeatherRecord& first = file_.records.front();
   const double offset = offset_s(first_year());
-  const TimeZone zone(offset_words(offset));
+  const TimeZone zone(offset_text(offset));
   const bool own = !dated_.empty();
   words_.push_back(
       fmt::format("{} {}{}: {} records of {:g} min", file_.format, file_.path,
@@ -284,7 +279,7 @@ void StudyWeather::say_file() {
                         own && first_year() != first.year
                             ? fmt::format(" written as {}", first_year())
                             : ""),
-      offset_words(offset), file_.offset_s ? "" : " (from site.timezone; the file does not say)",
+      offset_text(offset), file_.offset_s ? "" : " (from site.timezone; the file does not say)",
       own ? fmt::format("; first record {} to {}", iso_local(dated_.front().begin, zone),
                         iso_local(dated_.front().end, zone))
           : ""));
@@ -332,7 +327,7 @@ void StudyWeather::say_filled(const FilledWeather& gaps) {
 }
 
 std::string StudyWeather::in_file_time(UnixTime time) const {
-  return iso_local(time, TimeZone(offset_words(offset_s(first_year()))));
+  return iso_local(time, TimeZone(offset_text(offset_s(first_year()))));
 }
 
 std::string StudyWeather::words_of(const WeatherHole& hole) const {

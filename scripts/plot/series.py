@@ -42,6 +42,16 @@ def by_day(result, values, units):
     return np.stack([bounds[starts, 0], bounds[last, 1]], axis=1), sums / scale
 
 
+def whole_days(bounds, values):
+    """The same without a first or last day of which less than half is there: sums of it would look like darkness, as of
+    the hour in which a year of standard time reaches into the next one of the clock."""
+    lengths = bounds[:, 1] - bounds[:, 0]
+    is_kept = np.full(len(bounds), True)
+    if len(bounds) > 2:
+        is_kept[[0, -1]] = lengths[[0, -1]] >= np.median(lengths) / 2
+    return bounds[is_kept], values[is_kept], not is_kept.all()
+
+
 def torn_apart(days, values):
     """The same with an empty point wherever days lie so far apart that no line joins them."""
     gaps = np.flatnonzero(np.diff(days) > MOST_DAYS_JOINED) + 1
@@ -67,9 +77,9 @@ def draw(result, arguments):
     has_days = not result.is_synthetic and result.series_step != "month"
     is_daily = has_days and (arguments.step == "day" or arguments.step == "auto" and is_long)
     if is_daily:
-        bounds, values = by_day(result, values, units)
+        bounds, values, is_cut = whole_days(*by_day(result, values, units))
         what = "sums" if units in drawing.TIME_SUMS else "means"
-        what += " over the intervals of each civil day"
+        what += " over the intervals of each civil day" + (", but a first or last one cut short" if is_cut else "")
         caption = f"light load of the day [{drawing.TIME_SUMS[units]}]" if units in drawing.TIME_SUMS else caption
     pieces = [(0, len(bounds))] if result.is_synthetic or is_daily else runs_of_time(bounds)
     lengths = [bounds[end - 1, 1] - bounds[begin, 0] for begin, end in pieces]

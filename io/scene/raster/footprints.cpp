@@ -28,12 +28,14 @@ constexpr std::size_t most_named = 5;
 
 /// Usual names of columns, the more telling first; lower case.
 using Names = std::vector<std::string_view>;
-// Not New York's heightroof, which is in feet: who names it sees to the unit.
-const Names heights{"height",         "height_m", "building_height", "bldg_height",
-                    "measuredheight", "b_hoogte", "hoogte",          "hoehe",
-                    "hoehe_m",        "hauteur",  "vyska",           "h"};
-const Names storeys{"building:levels", "building_levels", "storeys", "stories",   "levels",
-                    "num_floors",      "floors",          "etages",  "geschosse", "podlazi"};
+// Not New York's heightroof or Portland's avg_height, which are in feet: who names it sees to the
+// unit.
+const Names heights{
+    "height", "height_m", "building_height", "bldg_height", "measuredheight", "b_hoogte", "hoogte",
+    "hoehe",  "hoehe_m",  "hauteur",         "vyska",       "altura",         "altezza",  "h"};
+const Names storeys{"building:levels", "building_levels", "storeys",     "stories", "levels",
+                    "num_floors",      "num_story",       "num_stories", "floors",  "etages",
+                    "geschosse",       "podlazi",         "plantas",     "piani"};
 const Names bases{"base_height", "base_m", "ground_height", "ground_elevation"};
 const Names names{"id", "gml_id", "osm_id", "fid", "egid", "ref", "name"};
 
@@ -146,8 +148,8 @@ class FootprintReader {
     const auto all = columns();
     fail("no column of heights is known",
          all.empty() ? "it has no columns" : fmt::format("its columns: {}", fmt::join(all, ", ")),
-         "name one: footprints: {height: COLUMN} or {storeys: COLUMN}, or give {default_height_m: "
-         "…} for all");
+         "name one: footprints: {height: COLUMN} or {storeys: COLUMN} (of sunload init --height or "
+         "--storeys), or give {default_height_m: …} for all");
   }
 
   // ---- place

@@ -360,5 +360,29 @@ TEST(Init, PlanDataTellsWhichColumnsItTook) {
   EXPECT_TRUE(std::holds_alternative<DaysPeriod>(study.period.kind));
 }
 
+TEST(Init, PlanDataOfOtherColumnsIsTold) {
+  const WorkFolder folder;
+  const std::string plan = folder.write(
+      "plan.geojson",
+      R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": )"
+      R"({"roof elevation": 8}, "geometry": {"type": "Polygon", "coordinates": [[[15.001, 49.6535], )"
+      R"([15.002, 49.6535], [15.002, 49.654], [15.001, 49.6535]]]}}]})");
+  const auto said = refusal_of([&] { begun(folder, {.model = plan}); });
+  EXPECT_NE(said.find("roof elevation"), std::string::npos) << said;
+  EXPECT_NE(said.find("sunload init --height"), std::string::npos) << said;
+  const auto [study, text] = begun(folder, {.model = plan, .height = "roof elevation"});
+  EXPECT_EQ(study.scene.files.front().footprints.height, "roof elevation") << text;
+}
+
+/// Kashgar keeps the time of Peking, whose table of zones has no place near it.
+TEST(Init, AnOffsetIsBetterThanAZoneOfFarAway) {
+  const WorkFolder folder;
+  const std::string weather =
+      test::small_epw({.latitude_deg = 39.5, .longitude_deg = 76, .offset_h = 8});
+  const auto [study, text] = begun(
+      folder, {.model = folder.write("box.obj", box), .weather = folder.write("w.epw", weather)});
+  EXPECT_EQ(study.site.timezone, "+08:00") << text;
+}
+
 }  // namespace
 }  // namespace sunload
