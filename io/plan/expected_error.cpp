@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/plan/surface_shares.h"
 #include "io/plan/work_estimate.h"
+#include "solver/surface/material.h"
 #include "solver/surface/ray_caster.h"
 
 namespace sunload {
@@ -98,6 +100,24 @@ bool asks_rays_at_edges(const VariantPlan& plan) {
          }) > 0;
 }
 
+/// Of light that gathering follows no farther (solver/README.md, What is left out): a mirror worth
+/// the name, and gloss. Empty where there is none.
+std::string cut_gloss_warning(const VariantPlan& plan) {
+  constexpr double least_mirror = 0.2;  // panes send on a tenth
+  if (plan.study.solver.transport == Transport::shoot) return {};
+  std::string mirror, gloss;
+  for (const Material& material : materials_of(plan)) {
+    if (mirror_reflectance(material, 1) >= least_mirror) mirror = material.name;
+    if (material.glossy > 0) gloss = material.name;
+  }
+  if (mirror.empty() || gloss.empty()) return {};
+  return fmt::format(
+      "sun that mirrors ({}) send to glossy surfaces ({}) goes no farther by gloss where light is "
+      "gathered: single patches that face both may lack half of what reaches them by mirrors "
+      "(sums a few percent of it); solver.transport: shoot follows it",
+      mirror, gloss);
+}
+
 }  // namespace
 
 std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const Hierarchy& mesh) {
@@ -109,6 +129,7 @@ std::vector<std::string> expected_error_warnings(const VariantPlan& plan, const 
         "ray caster): shadows of what is smaller, and light within as much of edges and feet of "
         "walls, are wrong; cut what is far away, or make it a line of far hills (site.horizon)",
         offset_m * 1000));
+  if (std::string cut = cut_gloss_warning(plan); !cut.empty()) warnings.push_back(std::move(cut));
   if (s.accuracy) return warnings;  // its pilot decides the counts
   constexpr double of_lines = 0.6, of_samples = 0.5;
   if (const double error = of_lines / std::sqrt(s.lines_per_patch); error > tolerable_of_lines)

@@ -31,5 +31,28 @@ TEST(ExpectedError, TellsWhereTheLeastAreaKeepsEdgesLong) {
       << kept[0];
 }
 
+TEST(ExpectedError, TellsOfGlossThatMirrorsShineUpon) {
+  const auto told = [](const std::string& mirror, const std::string& transport) {
+    const VariantPlan plan = plan_of(
+        "format: sunload-study-1\nname: facing\n"
+        "period: {positions: [{azimuth_deg: 180, elevation_deg: 45, interval_min: 60}]}\n"
+        "light: {source: fixed, dni_w_m2: 800, dhi_w_m2: 0, far_ground_albedo: 0}\n"
+        "scene: {builtin: {name: box_on_plane}, materials: {smooth: {mirror: " +
+        mirror +
+        "}, brushed: {glossy: 0.4, glossy_exponent: 30}}, assign: [{surface: wall, material: "
+        "smooth}, {surface: roof, material: brushed}, {surface: ground, material: brushed}, "
+        "{surface: other, material: brushed}]}\nmesh: {oracle: none}\nsolver: {transport: " +
+        transport + "}\n");
+    Watch watch;
+    const auto warnings = expected_error_warnings(plan, *make_mesh(plan, watch).mesh);
+    return std::ranges::any_of(warnings, [](const std::string& warning) {
+      return warning.find("mirrors (smooth) send to glossy surfaces (brushed)") != warning.npos;
+    });
+  };
+  EXPECT_TRUE(told("0.5", "gather"));
+  EXPECT_FALSE(told("0.5", "shoot"));
+  EXPECT_FALSE(told("0.08", "gather"));
+}
+
 }  // namespace
 }  // namespace sunload::test
