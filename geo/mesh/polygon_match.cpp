@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "geo/mesh/clip.h"
 #include "geo/mesh/mesh.h"
 
 namespace sunload {
@@ -18,14 +19,6 @@ std::array<double, 2> seen_along(int drop, Vec3 p) {
   if (drop == 0) return {p.y, p.z};
   if (drop == 1) return {p.x, p.z};
   return {p.x, p.y};
-}
-
-/// Twice the area vector of a ring. Newell's sum, as in Sutherland et al. (1974).
-Vec3 newell(const std::vector<Vec3>& ring) {
-  Vec3 sum;
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    sum += cross(ring[i] - ring[0], ring[(i + 1) % ring.size()] - ring[0]);
-  return sum;
 }
 
 /// Whether a ray from the point to +x crosses the ring an odd number of times.
@@ -46,7 +39,7 @@ PolygonMatch::PolygonMatch(std::vector<PolygonRings> polygons) {
   std::vector<Vec3> points;
   for (auto& rings : polygons) {
     Polygon polygon;
-    const Vec3 area = rings.empty() ? Vec3{} : newell(rings.front());
+    const Vec3 area = rings.empty() ? Vec3{} : area_vector2(rings.front());
     if (norm(area) > 0) {
       polygon.normal = normalized(area);
       const std::array<double, 3> size{std::abs(area.x), std::abs(area.y), std::abs(area.z)};

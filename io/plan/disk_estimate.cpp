@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "geo/sky/sky.h"
+#include "io/plan/cost.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/surface_shares.h"
 #include "io/plan/workload.h"
-#include "solver/base/cost.h"
 
 namespace sunload {
 

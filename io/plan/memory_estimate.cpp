@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "io/plan/cost.h"
 #include "io/plan/rules_of_study.h"
-#include "solver/base/cost.h"
 #include "solver/base/threads.h"
 
 namespace sunload {

@@ -74,13 +74,13 @@ const BuiltScene& Planner::scene_before_materials(const Study& study, std::strin
 const BuiltScene& Planner::scene_uncovered(const Study& study) {
   std::string key;
   const BuiltScene& prepared = scene_before_materials(study, key);
-  const auto covers = covers_of(study, prepared);
-  key += '\n' + std::string(covers.begin(), covers.end());
+  const FactsOfScene facts = surface_facts(study, prepared);
+  key += '\n' + facts.key();
   if (BuiltScene* known = uncovered_.of(key)) {
     if (known->crs.empty()) turn_to_north(study, *known);
     return *known;
   }
-  BuiltScene built = sunload::scene_uncovered(study, prepared, covers);
+  BuiltScene built = sunload::scene_uncovered(study, prepared, facts);
   const double weight = weight_of(built);
   return uncovered_.keep(key, std::move(built), weight);
 }

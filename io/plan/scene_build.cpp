@@ -263,7 +263,7 @@ BuiltScene scene_before_materials(const Study& study) {
   warn_of_gaps(study, built);
   built.scene.mesh = std::move(prepared.mesh);
   built.bodies = std::move(prepared.bodies);
-  if (const auto lying = lying_warning(study, built, model.is_city_format); !lying.empty())
+  if (const auto lying = on_its_side_warning(study, built, model.is_city_format); !lying.empty())
     built.warnings.push_back(lying);
   if (const auto lone = lone_piece_warning(study, built); !lone.empty())
     built.warnings.push_back(lone);
@@ -282,13 +282,6 @@ void turn_to_north(const Study& study, BuiltScene& built) {
 }
 
 namespace {
-
-/// Of a triangle, in `covers`.
-constexpr std::uint8_t opaque = 1, two_sided = 2, emitting = 4;
-/// Of all of them: something lights closed rooms.
-constexpr std::uint8_t lamps_within = 8;
-/// Its back is in a house.
-constexpr std::uint8_t dark_back = 16;
 
 /// What follows from surfaces that lie in others, in words.
 struct Consequence {
@@ -319,41 +312,57 @@ void warn_of_doubled(const Doubled& doubled, const Mesh& mesh, const Consequence
               consequence.why, consequence.what_to_try));
 }
 
+/// Of each triangle one of its facts.
+std::vector<std::uint8_t> flags_of(const FactsOfScene& facts, bool SurfaceFacts::*fact) {
+  std::vector<std::uint8_t> flags(facts.of_triangle.size());
+  std::ranges::transform(facts.of_triangle, flags.begin(),
+                         [fact](const SurfaceFacts& of) { return of.*fact ? 1 : 0; });
+  return flags;
+}
+
 /// What has a dark back is lit from one side.
-void mark_dark_backs(const Mesh& mesh, const Bodies& bodies, std::vector<std::uint8_t>& covers) {
-  std::vector<std::uint8_t> is_opaque(covers);
-  for (std::uint8_t& of_triangle : is_opaque) of_triangle &= opaque;
-  const auto backs = dark_backs(mesh, bodies, is_opaque);
-  for (std::size_t t = 0; t < covers.size(); ++t)
-    if (backs[t] != 0) covers[t] = static_cast<std::uint8_t>((covers[t] & ~two_sided) | dark_back);
+void mark_dark_backs(const Mesh& mesh, const Bodies& bodies, FactsOfScene& facts) {
+  const auto backs = dark_backs(mesh, bodies, flags_of(facts, &SurfaceFacts::is_opaque));
+  for (std::size_t t = 0; t < backs.size(); ++t) {
+    if (backs[t] == 0) continue;
+    facts.of_triangle[t].is_two_sided = false;
+    facts.of_triangle[t].has_dark_back = true;
+  }
 }
 
 }  // namespace
 
 // Materials are assigned anew afterwards, since a file's power is shared by what is left of its
 // lamps. Light that panes transmit leaves the scene: they cover as walls do.
-std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepared) {
-  if (study.scene.repair == Repair::none) return {};
+FactsOfScene surface_facts(const Study& study, const BuiltScene& prepared) {
+  FactsOfScene facts;
+  if (study.scene.repair == Repair::none) return facts;
   Scene scene;
   scene.mesh = prepared.scene.mesh;
   std::vector<std::string> said_later;
   assign_materials(study, {prepared.crs, prepared.site.north_deg}, scene, said_later);
-  std::vector<std::uint8_t> covers;
-  covers.reserve(scene.material.size());
+  facts.of_triangle.resize(scene.material.size());
   bool has_lamps = !study.scene.luminaires.empty() || !study.scene.parallel_sources.empty();
   for (std::size_t t = 0; t < scene.material.size(); ++t) {
-    const Material& material = scene.materials[scene.material[t].index()];
-    const bool is_two_sided = scene.mesh.triangle_sides[t] == Sides::two;
-    covers.push_back(static_cast<std::uint8_t>((material.transmittance == 0 ? opaque : 0) |
-                                               (is_two_sided ? two_sided : 0) |
-                                               (material.emission_w_m2 > 0 ? emitting : 0)));
+    const Material& material = scene.material_of(t);
+    facts.of_triangle[t] = {.is_opaque = material.transmittance == 0,
+                            .is_two_sided = scene.mesh.triangle_sides[t] == Sides::two,
+                            .emits = material.emission_w_m2 > 0};
     has_lamps |= material.emission_w_m2 > 0;
   }
   if (has_lamps)
-    for (std::uint8_t& of_triangle : covers) of_triangle |= lamps_within;
+    facts.cavities = Cavities::lit;
   else
-    mark_dark_backs(scene.mesh, prepared.bodies, covers);
-  return covers;
+    mark_dark_backs(scene.mesh, prepared.bodies, facts);
+  return facts;
+}
+
+std::string FactsOfScene::key() const {
+  std::string key(cavities == Cavities::lit ? "lit" : "dark");
+  for (const SurfaceFacts& of : of_triangle)
+    key += static_cast<char>('0' + of.is_opaque + 2 * of.is_two_sided + 4 * of.emits +
+                             8 * of.has_dark_back);
+  return key;
 }
 
 namespace {
@@ -370,23 +379,19 @@ void expect_patches(const Study& study, const Mesh& mesh) {
 }  // namespace
 
 BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
-                           const std::vector<std::uint8_t>& covers) {
+                           const FactsOfScene& facts) {
   BuiltScene built = prepared;
   if (study.scene.repair != Repair::none) {
     Mesh& mesh = built.scene.mesh;
     const auto sides_of_files = mesh.triangle_sides;
-    std::vector<std::uint8_t> is_opaque(covers.size()), emits(covers.size());
-    for (std::size_t t = 0; t < covers.size(); ++t) {
-      is_opaque[t] = (covers[t] & opaque) != 0;
-      emits[t] = (covers[t] & emitting) != 0;
-      mesh.triangle_sides[t] = (covers[t] & two_sided) != 0 ? Sides::two : Sides::one;
-    }
-    const bool has_lamps = !covers.empty() && (covers.front() & lamps_within) != 0;
-    const CoveredCut cut = cut_covered(mesh, built.bodies, is_opaque, built.seals, emits,
-                                       has_lamps ? Cavities::lit : Cavities::dark);
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+      mesh.triangle_sides[t] = facts.of_triangle[t].is_two_sided ? Sides::two : Sides::one;
+    const CoveredCut cut =
+        cut_covered(mesh, built.bodies, flags_of(facts, &SurfaceFacts::is_opaque), built.seals,
+                    flags_of(facts, &SurfaceFacts::emits), facts.cavities);
     for (std::size_t t = 0; t < cut.source.size(); ++t) {
       mesh.triangle_sides[t] = sides_of_files[cut.source[t]];
-      const bool is_dark = (covers[cut.source[t]] & dark_back) != 0;
+      const bool is_dark = facts.of_triangle[cut.source[t]].has_dark_back;
       built.dark_backs.push_back(is_dark);
       if (is_dark && mesh.bears_patches(t)) built.report.dark_backs_m2 += mesh.area_m2(t);
     }
@@ -429,7 +434,7 @@ double crs_unit_m(const SceneStudy& scene, const std::string& crs) {
 
 BuiltScene build_scene(const Study& study) {
   const BuiltScene prepared = scene_before_materials(study);
-  BuiltScene built = scene_uncovered(study, prepared, covers_of(study, prepared));
+  BuiltScene built = scene_uncovered(study, prepared, surface_facts(study, prepared));
   give_materials(study, built);
   return built;
 }

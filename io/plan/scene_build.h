@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "geo/mesh/covered.h"
 #include "geo/mesh/mesh_prepare.h"
 #include "geo/sun/site.h"
 #include "io/plan/material_assign.h"
@@ -53,12 +54,25 @@ std::vector<std::string> materials_of_parallel_sources(const SceneStudy& scene);
 /// Turns a prepared scene to the north that `study` gives; in a scene without CRS nothing else
 /// depends on north.
 void turn_to_north(const Study& study, BuiltScene& built);
-/// What materials will say of each triangle: whether light passes it or begins there, and on how
-/// many sides it is lit; and whether lamps may be in closed rooms.
-std::vector<std::uint8_t> covers_of(const Study& study, const BuiltScene& prepared);
-/// The second step: the scene without what is covered. Of materials it depends on `covers` alone.
+/// What materials will say of a triangle, as far as it decides what is covered.
+struct SurfaceFacts {
+  bool is_opaque = false;     ///< light does not pass it: panes cover as walls do
+  bool is_two_sided = false;  ///< lit on both sides
+  bool emits = false;
+  bool has_dark_back = false;  ///< its back is in a house (geo/mesh/dark_backs): lit from one side
+};
+/// Of a whole scene; without triangles where nothing is to be covered (`repair: none`).
+struct FactsOfScene {
+  std::vector<SurfaceFacts> of_triangle;
+  Cavities cavities = Cavities::dark;  ///< lit where lamps may be in closed rooms
+
+  /// Tells scenes apart that are covered otherwise.
+  std::string key() const;
+};
+FactsOfScene surface_facts(const Study& study, const BuiltScene& prepared);
+/// The second step: the scene without what is covered. Of materials it depends on `facts` alone.
 BuiltScene scene_uncovered(const Study& study, const BuiltScene& prepared,
-                           const std::vector<std::uint8_t>& covers);
+                           const FactsOfScene& facts);
 /// Materials' sides, where a back is not dark.
 void take_dark_backs(const BuiltScene& built, Mesh& mesh);
 /// The last step: gives materials, parallel sources, luminaires and sensors.

@@ -151,63 +151,88 @@ std::string north_warning(const SiteStudy& given, const std::string& crs, double
       "leave north_deg away where the model is in its map's coordinates");
 }
 
-std::string lying_warning(const Study& study, const BuiltScene& prepared, bool is_city_format) {
-  if (is_city_format) return {};
-  // Faces along an axis to within some 8 degrees. A town has much that is level, as open sheet or
-  // as roofs of bodies whose feet are level, and its walls face all sides.
-  constexpr double along = 0.99, much = 3, most_of_bodies = 0.8, same_foot = 0.01,
-                   some_walls = 0.05;
-  constexpr std::size_t some_bodies = 3;
-  const Mesh& mesh = prepared.scene.mesh;
-  std::array<double, 3> area{}, net{};
-  double all = 0;
+namespace {
+
+/// Areas of faces along each axis, to within some 8 degrees [m2, doubled].
+struct AreasAlongAxes {
+  std::array<double, 3> area{};  ///< both ways
+  std::array<double, 3> net{};   ///< along the axis less against it
+  double all = 0;                ///< of all faces
+
+  /// The level axis that has more.
+  std::size_t wider() const { return area[0] > area[1] ? 0 : 1; }
+};
+
+AreasAlongAxes areas_along_axes(const Mesh& mesh) {
+  constexpr double along = 0.99;
+  AreasAlongAxes sums;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const auto id = mesh.triangle_material[t];
     if (id.exists() && mesh.file_materials[id.index()].name == "ground") continue;  // ours
     const Vec3 n = mesh.area_vector2(t);
     const double own = norm(n);
-    all += own;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double c = component(n, axis);
+    sums.all += own;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double c = component(n, static_cast<int>(axis));
       if (std::abs(c) < along * own) continue;
-      area[static_cast<std::size_t>(axis)] += own;
-      net[static_cast<std::size_t>(axis)] += c;
+      sums.area[axis] += own;
+      sums.net[axis] += c;
     }
   }
-  const auto with_common_foot = [&](int axis) {
-    double least = 0, most = 0, count = 0;
-    for (const Body& body : prepared.bodies.bodies) {
-      const double low = component(body.box.low, axis), high = component(body.box.high, axis);
-      if (count++ == 0) least = low, most = high;
-      least = std::min(least, low);
-      most = std::max(most, high);
-    }
-    const double near = same_foot * (most - least);
-    double low = 0, high = 0;
-    for (const Body& body : prepared.bodies.bodies) {
-      low += component(body.box.low, axis) <= least + near;
-      high += component(body.box.high, axis) >= most - near;
-    }
-    return count > 0 ? std::max(low, high) / count : 0;
-  };
-  const int wide = area[0] > area[1] ? 0 : 1;
-  const auto w = static_cast<std::size_t>(wide);
-  if (all <= 0 || area[w] < much * area[2]) return {};
-  const bool bears_walls = all - area[w] > some_walls * all;  // or is a wall itself
+  return sums;
+}
+
+/// The largest share of bodies that end at one level of the axis: at the lowest, or the highest.
+double share_with_common_foot(const std::vector<Body>& bodies, int axis) {
+  constexpr double same_foot = 0.01;  // of the scene's extent
+  double least = infinity, most = -infinity;
+  for (const Body& body : bodies) {
+    least = std::min(least, component(body.box.low, axis));
+    most = std::max(most, component(body.box.high, axis));
+  }
+  const double near = same_foot * (most - least);
+  double low = 0, high = 0;
+  for (const Body& body : bodies) {
+    low += component(body.box.low, axis) <= least + near;
+    high += component(body.box.high, axis) >= most - near;
+  }
+  return bodies.empty() ? 0 : std::max(low, high) / static_cast<double>(bodies.size());
+}
+
+/// A town has much that is level, as open sheet or as roofs of bodies whose feet are level, and its
+/// walls face all sides.
+bool lies_on_its_side(const AreasAlongAxes& sums, const std::vector<Body>& bodies) {
+  constexpr double much = 3, most_of_bodies = 0.8, some_walls = 0.05;
+  constexpr std::size_t some_bodies = 3;
+  const std::size_t wide = sums.wider();
+  if (sums.all <= 0 || sums.area[wide] < much * sums.area[2]) return false;
+  const bool bears_walls = sums.all - sums.area[wide] > some_walls * sums.all;  // or is one itself
+  const double net = std::abs(sums.net[wide]);
   const bool is_open_land =
-      bears_walls && std::abs(net[w]) > all / much && std::abs(net[w]) > much * std::abs(net[2]);
-  const bool is_town = prepared.bodies.bodies.size() >= some_bodies &&
-                       with_common_foot(wide) >= most_of_bodies &&
-                       with_common_foot(2) < most_of_bodies;
-  if (!is_open_land && !is_town) return {};
+      bears_walls && net > sums.all / much && net > much * std::abs(sums.net[2]);
+  const bool is_town = bodies.size() >= some_bodies &&
+                       share_with_common_foot(bodies, static_cast<int>(wide)) >= most_of_bodies &&
+                       share_with_common_foot(bodies, 2) < most_of_bodies;
+  return is_open_land || is_town;
+}
+
+}  // namespace
+
+std::string on_its_side_warning(const Study& study, const BuiltScene& prepared,
+                                bool is_city_format) {
+  if (is_city_format) return {};
+  const AreasAlongAxes sums = areas_along_axes(prepared.scene.mesh);
+  if (!lies_on_its_side(sums, prepared.bodies.bodies)) return {};
+  constexpr double percent = 100;
+  const char* const axis = sums.wider() == 0 ? "x" : "y";
   return message(
       study.scene.where,
       fmt::format("the scene seems to lie on its side: {:.0f} % of its area faces along {}, {:.0f} "
                   "% is level",
-                  100 * area[w] / all, wide == 0 ? "x" : "y", 100 * area[2] / all),
+                  percent * sums.area[sums.wider()] / sums.all, axis,
+                  percent * sums.area[2] / sums.all),
       "its walls are taken for level land and the other way round",
-      fmt::format("write scene.up: {} where that axis of the file points to the zenith",
-                  wide == 0 ? "x" : "y"));
+      fmt::format("write scene.up: {} where that axis of the file points to the zenith", axis));
 }
 
 namespace {

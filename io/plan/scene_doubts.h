@@ -11,7 +11,8 @@ namespace sunload {
 
 /// Warns of a scene that lies on its side, with level faces and feet where walls should be; only of
 /// formats that do not say which way is up. Empty where it stands.
-std::string lying_warning(const Study& study, const BuiltScene& prepared, bool is_city_format);
+std::string on_its_side_warning(const Study& study, const BuiltScene& prepared,
+                                bool is_city_format);
 
 /// Warns of a small piece that lies many times as far from all else as that is wide; empty where
 /// there is none.

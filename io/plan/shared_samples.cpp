@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geo/base/units.h"
-#include "solver/base/cost.h"
+#include "io/plan/cost.h"
 #include "solver/light/sun_block.h"
 
 namespace sunload {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/plan/surface_shares.h"
 
-#include "solver/base/cost.h"
+#include "io/plan/cost.h"
 #include "solver/sight/lit_shares.h"
 
 namespace sunload {

@@ -6,13 +6,13 @@
 #include <set>
 #include <utility>
 
+#include "io/plan/cost.h"
 #include "io/plan/disk_estimate.h"
 #include "io/plan/memory_estimate.h"
 #include "io/plan/mesh_family.h"
 #include "io/plan/shared_samples.h"
 #include "io/plan/surface_shares.h"
 #include "io/plan/workload.h"
-#include "solver/base/cost.h"
 #include "solver/base/threads.h"
 
 namespace sunload {

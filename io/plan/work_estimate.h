@@ -12,7 +12,7 @@
 
 namespace sunload {
 
-/// Time that a machine takes, as a multiple of what the cost model says (solver/base/cost.h), by
+/// Time that a machine takes, as a multiple of what the cost model says (io/plan/cost.h), by
 /// kind of work.
 struct WorkPace {
   double lines = 1, direct = 1, mirror = 1, solve = 1, sensors = 1;

@@ -8,10 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "io/plan/cost.h"
 #include "io/plan/interval_lights.h"
 #include "io/plan/rules_of_study.h"
+#include "io/plan/workload.h"
 #include "solver/base/chunks.h"
-#include "solver/base/cost.h"
 #include "solver/base/threads.h"
 #include "solver/solver.h"
 

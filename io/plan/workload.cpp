@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "geo/base/units.h"
+#include "io/plan/cost.h"
 #include "io/plan/rules_of_study.h"
 #include "io/plan/seasons_of_plan.h"
 #include "io/plan/shared_samples.h"
 #include "io/plan/stored_bits.h"
 #include "io/plan/surface_shares.h"
 #include "io/plan/variant_mesh.h"
-#include "solver/base/cost.h"
 #include "solver/light/sun_samples.h"
 #include "solver/shoot/shot_power.h"
 #include "solver/sight/share_grid.h"

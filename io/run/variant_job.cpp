@@ -107,8 +107,11 @@ void VariantJob::expect_may_run() const {
 }
 
 void VariantJob::expect_may_merge() const {
-  if (folder_.batches_not_there().empty())
-    return refuse_other_state("use --overwrite to replace it");
+  const auto lacking = folder_.batches_not_there();
+  if (lacking.empty()) return refuse_other_state("use --overwrite to replace it");
+  // Nothing to merge, and a run with --resume would be refused for what lies there.
+  if (lacking.size() == plan_.batches())
+    refuse_other_state("run the study with --overwrite to replace it, or --output");
   if (is_merged()) return;
   if (const auto state = folder_.state();
       state && is_of_other_isa(ResultReader(folder_.result()), *state, plan_))

@@ -16,13 +16,10 @@
 #include "io/base/waiting_lock.h"
 #include "io/batch/batch_tally.h"
 #include "io/batch/file.h"
-#include "io/plan/room.h"
-#include "io/plan/rules_of_study.h"
-#include "io/plan/work_estimate.h"
+#include "io/run/decided_rules.h"
 #include "io/run/mpi_world.h"
 #include "io/run/part_merge.h"
 #include "io/run/stored_series.h"
-#include "solver/base/threads.h"
 
 namespace sunload {
 
@@ -32,45 +29,6 @@ std::string rays_text(const char* what, double rays, double seconds) {
   if (rays == 0 || seconds <= 0) return {};
   return fmt::format("  {:<14} {:8.2f} s  {:9.3g} rays  {:7.1f} million rays/s\n", what, seconds,
                      rays, rays / seconds / 1e6);
-}
-
-/// What the pilot decided.
-std::string counts_text(const VariantPlan& plan, const SampleCounts& counts) {
-  const SolverRules rules = with_counts(solver_rules(plan), counts);
-  std::string shot;
-  if (rules.power_per_sample_w)
-    shot = fmt::format(", shots of {:.3g} W per sample", *rules.power_per_sample_w);
-  else if (rules.samples_per_patch)
-    shot = fmt::format(", {} samples per patch in the first shot", *rules.samples_per_patch);
-  const auto [fewest, most] =
-      std::minmax_element(counts.lines_of_patch.begin(), counts.lines_of_patch.end());
-  const std::string lines =
-      fewest == most || *fewest == *most
-          ? fmt::format("{}", counts.lines_per_patch)
-          : fmt::format("{} to {} (mean {:.0f})", *fewest, *most, counts.mean_lines());
-  std::string text = fmt::format(
-      "{}: accuracy of {}: {} lines and {} direct samples per patch{}, by which a pilot "
-      "expects it on {:.3g} % of the area",
-      plan.study.variant, goal_words(*plan.study.solver.accuracy), lines, counts.direct_samples,
-      shot, 100 * counts.share);
-  if (counts.share < share_to_be_met)
-    text += fmt::format("; {} lines and samples at most cannot give more (max_lines_per_patch)",
-                        plan.study.solver.max_lines_per_patch);
-  // Errors of what lamps bring fall faster with more lines than by the pilot's law.
-  if (counts.share < share_to_be_met && has_lamps(plan))
-    text +=
-        "; of lamps it expects too large errors: lines_per_patch as large as that, without "
-        "accuracy, may reach it";
-  return text;
-}
-
-/// The pilot, or counts that it chose, may need more than the least counts that `check` knows.
-void refuse_too_much(double memory_bytes) {
-  if (const double left = available_memory_bytes(); memory_bytes > left)
-    throw MachineError(
-        fmt::format("too little memory for the accuracy asked for: about {} are needed, {} are "
-                    "available; use a smaller max_lines_per_patch or a larger error in accuracy",
-                    bytes_text(memory_bytes), bytes_text(left)));
 }
 
 }  // namespace
@@ -89,7 +47,7 @@ VariantRun::~VariantRun() {
 }
 
 void VariantRun::prepare(MpiWorld* world) {
-  rules_ = decided_rules();
+  rules_ = decided_rules(plan_, mesh_, progress_);
   if (!plan_.seasons.all.empty()) return build_seasons();
   if (!world) return read_or_trace();
   if (world->is_first()) {
@@ -208,35 +166,6 @@ void VariantRun::keep_lines(const std::string& path) {
 
 void VariantRun::warn(const std::string& text) const {
   progress_.warn(plan_.study.variant + ": warning: " + text);
-}
-
-/// The study's rules, with counts raised by a pilot where it asks for an accuracy. Every
-/// process of a study comes to the same counts.
-SolverRules VariantRun::decided_rules() {
-  SolverRules rules = solver_rules(plan_);
-  if (!plan_.study.solver.accuracy) return rules;
-  const bool lamps = has_lamps(plan_);
-  std::vector<std::size_t> lit;
-  for (std::size_t k = 0; k < plan_.intervals(); ++k)
-    if (lamps || !is_dark(plan_.light.intervals[k])) lit.push_back(k);
-  const AccuracyPilotSuns choice = accuracy_pilot_suns(lit.size());
-  const SkyGrid grid;
-  const IntervalLights lights(plan_.study, plan_.built.site, grid);
-  std::vector<IntervalLight> suns(choice.places.size());
-  parallel_for(suns.size(), [&](std::size_t p) {
-    const std::size_t k = lit[choice.places[p]];
-    suns[p] = lights.of(plan_.light.intervals[k], k);
-  });
-  const AccuracyGoal goal = accuracy_goal(plan_.study);
-  if (const auto problem = accuracy_pilot_problem(plan_, mesh_->patch_count()); !problem.empty())
-    throw MachineError(problem);
-  const PatchSpread spread = accuracy_pilot_spread(
-      plan_.built.scene, mesh_, rules, suns,
-      {choice.weight, plan_.batch_suns(), goal.irradiance_relative.has_value()}, progress_);
-  const SampleCounts counts = needed_counts(spread, rules, goal, lit.size());
-  refuse_too_much(estimate_work(plan_, spread.area.size(), counts).memory_bytes);
-  progress_.say(counts_text(plan_, counts));
-  return with_counts(rules, counts);
 }
 
 void VariantRun::compute(std::size_t batch) {

@@ -66,7 +66,6 @@ class VariantRun {
   Solved solved(std::size_t batch, const BatchParts& parts);
   void add_reduction(BatchWriter& writer) const;
   void keep_lines(const std::string& path);
-  SolverRules decided_rules();
   void write(const BatchWriter& writer, const std::string& path) const;
   void warn(const std::string& text) const;
 

@@ -42,7 +42,7 @@ struct IntervalLight {
   std::vector<SunSample> direct_suns;
   double dni = 0;
   double dhi = 0;
-  double ground_exitance = 0;  ///< of the far ground, rho_g * GHI
+  double ground_exitance = 0;  ///< of the far ground, its albedo times GHI
   /// Mean radiance per cell of the sky grid [W m-2 sr-1]; empty: dark.
   std::vector<double> sky;
   double length_s = 0;

@@ -266,7 +266,7 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
   DoubleColumns power = reflected_power(first);
   const SunTotals first_total = total_power(power);
   SunTotals total = first_total, sent{};
-  DoubleColumns one_before;  // what the bounce before brought
+  DoubleColumns last_two;  // what this bounce and the one before brought
   const auto any = [](const SunTotals& of) {
     return std::any_of(of.begin(), of.end(), [](double P) { return P > 0; });
   };
@@ -284,9 +284,9 @@ Shooter::Reflected Shooter::reflect(const DoubleColumns& first, std::size_t real
       add(out.irradiance, shot.irradiance);
       out.fates += shot.fates;
       if (!beyond_.empty()) {
-        if (b > 1) add(one_before, shot.irradiance);
-        out.estimated = light_beyond_last(b > 1 ? one_before : shot.irradiance);
-        one_before = std::move(shot.irradiance);
+        if (b > 1) add(last_two, shot.irradiance);
+        out.estimated = light_beyond_last(b > 1 ? last_two : shot.irradiance);
+        last_two = std::move(shot.irradiance);
       }
     } else {
       sent = total;

@@ -375,6 +375,18 @@ TEST(Commands, MergeBeforeAnythingIsThere) {
   EXPECT_EQ(square.folder.content(), (Lines{"square.obj", "square.yaml"}));
 }
 
+/// A run with --resume would be refused: so is the merge, and not with batches that are missing.
+TEST(Commands, MergeAfterAnEditTellsOfTheResultThatIsThere) {
+  const CommandedSquare square;
+  ASSERT_EQ(square.run({"run"}).code, 0);
+  square.change("max_edge_m: 1.5", "max_edge_m: 2");
+  const Ran merge = square.run({"merge"});
+  EXPECT_EQ(merge.code, 2) << merge.err;
+  EXPECT_NE(merge.err.find("is the result of another state of the study"), std::string::npos)
+      << merge.err;
+  EXPECT_NE(merge.err.find("run the study with --overwrite"), std::string::npos) << merge.err;
+}
+
 TEST(Commands, DamagedBatchIsNamedAndComputedAgain) {
   const CommandedSquare square;
   ASSERT_EQ(square.run({"run", "--keep-batches"}).code, 0);

@@ -11,8 +11,8 @@
 #include <iterator>
 #include <string>
 
+#include "io/plan/cost.h"
 #include "io/plan/variant_mesh.h"
-#include "solver/base/cost.h"
 #include "tests/support/paths.h"
 #include "tests/support/study_plan.h"
 
