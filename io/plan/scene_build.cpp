@@ -424,6 +424,8 @@ void give_materials(const Study& study, BuiltScene& built) {
                                             built.report.bounds, built.warnings);
   built.scene.sensors =
       place_sensors(study.sensors, built.scene.mesh, built.report.bounds, built.warnings);
+  if (const auto inside = sensors_in_bodies_warning(study.sensors, built.scene); !inside.empty())
+    built.warnings.push_back(inside);
 }
 
 double crs_unit_m(const SceneStudy& scene, const std::string& crs) {

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "geo/base/units.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
@@ -310,6 +312,55 @@ void tell_of_hidden(const Study& study, BuiltScene& built) {
     built.warnings.push_back(message(study.scene.where, placed_inside.lie("inside others"), unseen,
                                      "are the places of scene.edit right?"));
   if (inside.count() > 0) built.notes.push_back(inside.lie("inside others") + "; " + unseen);
+}
+
+namespace {
+
+/// Opaque triangles that are lit from one side, without upright ones and land that is covered, as
+/// below a house: their backs are dark.
+std::vector<std::size_t> triangles_with_dark_backs(const Scene& scene) {
+  std::vector<std::size_t> all;
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
+    const Material& material = scene.material_of(t);
+    const bool is_opaque = material.transmittance == 0 && normal_transmittance(material) == 0;
+    const bool is_covered_land =
+        scene.mesh.is_covered(t) && scene.mesh.triangle_surface[t] == Surface::ground;
+    if (is_opaque && !is_covered_land && scene.mesh.triangle_sides[t] == Sides::one &&
+        slope_of(scene.mesh, t) != Slope::upright)
+      all.push_back(t);
+  }
+  return all;
+}
+
+/// The nearest face above looks up, and the nearest one below looks down.
+bool is_in_body(const PlanTriangles& faces, const Mesh& mesh, Vec3 point) {
+  double above = infinity, below = -infinity;
+  std::optional<Slope> of_above, of_below;
+  faces.visit_heights(point.x, point.y, [&](std::size_t t, double z) {
+    if (z > point.z && z < above) above = z, of_above = slope_of(mesh, t);
+    if (z < point.z && z > below) below = z, of_below = slope_of(mesh, t);
+  });
+  return of_above == Slope::upward && of_below == Slope::downward;
+}
+
+}  // namespace
+
+std::string sensors_in_bodies_warning(const SensorsStudy& study, const Scene& scene) {
+  if (scene.sensors.empty()) return {};
+  const PlanTriangles faces(scene.mesh, triangles_with_dark_backs(scene));
+  std::size_t count = 0, first = 0;
+  for (std::size_t s = scene.sensors.size(); s-- > 0;)
+    if (is_in_body(faces, scene.mesh, scene.sensors[s].position)) {
+      ++count;
+      first = s;
+    }
+  if (count == 0) return {};
+  const Vec3 at = scene.mesh.origin + scene.sensors[first].stands_at;
+  return message(study.where,
+                 fmt::format("{} of {} sensors lie within bodies, the first of them sensor {} at "
+                             "({:.10g}, {:.10g}, {:.10g})",
+                             count, scene.sensors.size(), first, at.x, at.y, at.z),
+                 "no light comes there", "points before walls and above roofs receive light");
 }
 
 void warn_of_reflectances(const Study& study, BuiltScene& built) {

@@ -27,6 +27,10 @@ std::string north_warning(const SiteStudy& given, const std::string& crs, double
 /// called after what is covered is cut.
 void tell_of_hidden(const Study& study, BuiltScene& built);
 
+/// Warns of sensors within bodies, where no light comes: straight above and below they see backs of
+/// opaque faces. To be called after materials are given; empty where there are none.
+std::string sensors_in_bodies_warning(const SensorsStudy& study, const Scene& scene);
+
 /// Warns of colours for display that became reflectances, and of walls that reflect more than any
 /// real ones do. To be called after materials are given.
 void warn_of_reflectances(const Study& study, BuiltScene& built);

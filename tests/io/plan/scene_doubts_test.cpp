@@ -85,6 +85,28 @@ TEST_F(Doubts, LeaveSlabsAndFacadesAlone) {
   EXPECT_FALSE(warns(study("files: [wall.obj], up: z, ground: {margin_m: 5}"), lies));
 }
 
+TEST_F(Doubts, SeeSensorsWithinBodies) {
+  write_town("town.obj", false);
+  const auto inside = [&](const std::string& positions, const std::string& more = "") {
+    std::string points;
+    for (const char at : positions)
+      points += std::string(points.empty() ? "" : ", ") + "{position_m: " +
+                (at == 'i'   ? "[4, 6, 2.5]"
+                 : at == 'r' ? "[4, 6, 5.5]"
+                             : "[-5, 6, 1.5]") +
+                ", normal: [0, 0, 1]}";
+    return warns(study("files: [town.obj]" + more + "}\nsensors: {points: [" + points + "]"),
+                 "sensors lie within bodies, the first of them sensor 1");
+  };
+  EXPECT_TRUE(inside("oi"));
+  EXPECT_TRUE(inside("ri", ", ground: {}"));
+  EXPECT_FALSE(inside("or"));
+  // A canopy or a crown lets light through.
+  EXPECT_FALSE(inside("oi",
+                      ", materials: {net: {transmittance: 0.5}}, assign: [{object: '*', "
+                      "material: net}]"));
+}
+
 TEST_F(Doubts, CompareNorthWithTheMap) {
   SiteStudy given;
   given.north_deg = 0;
