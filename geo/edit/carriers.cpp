@@ -90,13 +90,14 @@ BuildingPart building_part(const PolygonModel& model, std::size_t place) {
   return part;
 }
 
-/// Whether a face that leans is just below a place, or at it.
+/// Whether a face that leans is just below a place, at it, or above it by no more than towers are
+/// drawn into what they stand on.
 bool supports(const LooseFace& face, Vec3 p) {
-  constexpr double touching_m = 0.3;
+  constexpr double touching_m = 0.3, sunk_m = 1;
   if (!holds_in_plan(face.rings, plan_point(p), plan_point)) return false;
   const Vec3 area = area_vector2(face), o = face.rings.front().front();
   const double z = o.z - (area.x * (p.x - o.x) + area.y * (p.y - o.y)) / area.z;
-  return std::abs(z - p.z) < touching_m;
+  return z > p.z - touching_m && z < p.z + sunk_m;
 }
 
 /// Share of the lower edges of `upper` that stand on `lower`, above its foot.
@@ -125,6 +126,25 @@ bool covers(const Box& upper, const Box& lower) {
   return over.x > 0 && over.y > 0 && over.x * over.y > nearly_all * whole.x * whole.y;
 }
 
+/// Of the lower parts that carry one, all together more than half of its edges, the one with most.
+std::optional<std::size_t> carrier_of(const std::vector<BuildingPart>& parts, std::size_t upper,
+                                      const std::vector<ObjectExtent>& extents,
+                                      std::optional<double> from_m) {
+  constexpr double half = 0.5;
+  double most = 0, all = 0;
+  std::optional<std::size_t> carrier;
+  for (std::size_t l = 0; l < upper; ++l) {
+    const Box& box = extents[parts[l].place].box;
+    if (from_m && box.high.z < box.low.z + *from_m) continue;
+    const double share = share_on(parts[upper], parts[l], box.low.z);
+    all += share;
+    if (share <= most) continue;
+    most = share;
+    carrier = parts[l].place;
+  }
+  return all > half ? carrier : std::nullopt;
+}
+
 /// Of bodies of one building those that stand on another one, the lowest first.
 void find_stacked(const PolygonModel& model, std::vector<std::size_t> places,
                   const std::vector<ObjectExtent>& extents, std::optional<double> from_m,
@@ -136,21 +156,13 @@ void find_stacked(const PolygonModel& model, std::vector<std::size_t> places,
   std::vector<BuildingPart> parts;
   parts.reserve(places.size());
   for (const std::size_t place : places) parts.push_back(building_part(model, place));
-  for (std::size_t u = 1; u < parts.size(); ++u) {
-    double most = 0.5;
-    for (std::size_t l = 0; l < u; ++l) {
-      const std::size_t lower = parts[l].place;
-      const Box& box = extents[lower].box;
-      if (from_m && box.high.z < box.low.z + *from_m) continue;
-      const double share = share_on(parts[u], parts[l], box.low.z);
-      if (share <= most) continue;
-      most = share;
-      const bool is_covered = covers(extents[parts[u].place].box, box);
-      if (is_covered) carriers.is_covered[lower] = 1;
-      const auto carrier = carriers.of[lower] ? carriers.of[lower] : lower;
-      carriers.of[parts[u].place] = is_covered ? carriers.of[lower] : carrier;
+  for (std::size_t u = 1; u < parts.size(); ++u)
+    if (const auto lower = carrier_of(parts, u, extents, from_m)) {
+      const bool is_covered = covers(extents[parts[u].place].box, extents[*lower].box);
+      if (is_covered) carriers.is_covered[*lower] = 1;
+      const auto carrier = carriers.of[*lower] ? carriers.of[*lower] : *lower;
+      carriers.of[parts[u].place] = is_covered ? carriers.of[*lower] : carrier;
     }
-  }
 }
 
 }  // namespace

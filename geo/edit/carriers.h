@@ -21,8 +21,9 @@ struct Carriers {
 };
 /// What belongs to a building without surfaces sits on the nearest of its parts in plan; of several
 /// at one place on the smallest. Parts of buildings are bodies, as is what belongs to nothing that
-/// is chosen: these sit on nothing, but for parts that stand on the roof of another chosen body of
-/// their building (towers of lifts, dormers), by more than half of the lower edges of their walls.
+/// is chosen: these sit on nothing, but for parts that stand on the roofs of other chosen bodies of
+/// their building (towers of lifts, dormers), or up to 1 m in them, by more than half of the lower
+/// edges of their walls: on that which has most of these.
 /// `from_m`: what is no higher above its foot carries no part.
 Carriers carriers_of(const FamilyTree& tree, const PolygonModel& model, const ChosenObjects& chosen,
                      std::optional<double> from_m = {});

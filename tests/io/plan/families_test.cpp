@@ -143,6 +143,26 @@ TEST_F(Families, PartsThatStandOnAPartRiseWithIt) {
             (std::pair<double, double>{10, 15}));
 }
 
+/// A tower drawn into its podium, whose foot stays in there, and one across the joint of two parts.
+TEST_F(Families, PartsThatStandInARoofOrOnTwoRiseWithThem) {
+  const std::string part = R"("parents":["house"])";
+  folder_.write(
+      "town.city.json",
+      FamilyTown()
+          .add_bare("house", "Building", R"("children":["west","east","sunk","across","yard"])")
+          .add("west", "BuildingPart", part, {0, 0, 0}, {20, 12, 10})
+          .add("east", "BuildingPart", part, {20, 0, 0}, {40, 12, 10})
+          .add("sunk", "BuildingPart", part, {4, 4, 9.5}, {8, 8, 13})
+          .add("across", "BuildingPart", part, {18, 3, 10}, {22, 9, 14})
+          .add("yard", "BuildingPart", part, {0, 12, 0}, {10, 20, 3})
+          .text());
+  EXPECT_EQ(heights(model("{object: house, raise: {by_m: 3}}")), (Heights{{"west", {0, 13}},
+                                                                          {"east", {0, 13}},
+                                                                          {"sunk", {9.5, 16}},
+                                                                          {"across", {13, 17}},
+                                                                          {"yard", {0, 6}}}));
+}
+
 TEST_F(Families, RiseWithWhatSitsOnThem) {
   Heights raised = as_read();
   raised["house"] = {0, 9};
