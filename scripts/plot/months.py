@@ -109,6 +109,11 @@ def draw(result, arguments):
         raise InputError(f"{result.path}: sums over time of {quantity} [{result.units(quantity)}] have no meaning "
                          "here; choose an irradiance or illuminance")
 
+    drawn = months_worth_a_bar(hours)
+    table = rows(months, hours, targets, parts, sums)  # all of them
+    months, hours, sums = [months[m] for m in drawn], hours[drawn], sums[:, drawn]
+    whiskers = None if whiskers is None else whiskers[drawn]
+
     across = 2 if len(targets) > 1 else 1
     down = -(-len(targets) // across)
     figure, grid = plt.subplots(down, across, squeeze=False, sharex=True, sharey=True,
@@ -134,7 +139,17 @@ def draw(result, arguments):
         grid[0, -1].legend(handles[::-1], labels[::-1], loc="upper left", bbox_to_anchor=(1, 1))
     note = "" if all(is_whole) else "; * only part of the month is in the study"
     drawing.heading(figure, result, f"{load_words(quantity)} by civil month, {result.zone_name}{note}")
-    return figure, rows(months, hours, targets, parts, sums)
+    return figure, table
+
+
+def months_worth_a_bar(hours):
+    """All but a first or last one of which a day or less is there, as of the hour in which a year of standard time reaches
+    into the next one of the clock."""
+    of_month = np.array([of.sum() for of in hours])
+    at_an_end = np.full(len(of_month), False)
+    if len(of_month) > 2:
+        at_an_end[[0, -1]] = True
+    return np.flatnonzero(~(at_an_end & (of_month <= 24)))
 
 
 def load_words(quantity):
