@@ -28,15 +28,23 @@ namespace sunload {
 
 namespace {
 
+/// Where a sensor looks, in the frame of the scene.
+Vec3 normal_of(const SensorPoint& point, double north_deg) {
+  if (!point.tilted) return point.normal;
+  const auto [tilt_deg, azimuth_deg] = *point.tilted;
+  return enu_direction({.azimuth_deg = azimuth_deg - north_deg, .elevation_deg = 90 - tilt_deg});
+}
+
 /// Sensors in the mesh's frame; a warning where they stand far from the scene.
-std::vector<Sensor> place_sensors(const SensorsStudy& study, const Mesh& mesh, const Box& bounds,
-                                  std::vector<std::string>& warnings) {
+std::vector<Sensor> place_sensors(const SensorsStudy& study, const Mesh& mesh, double north_deg,
+                                  const Box& bounds, std::vector<std::string>& warnings) {
   std::vector<Sensor> sensors;
   sensors.reserve(study.points.size());
   FarPlaces far(mesh.origin, bounds);
   for (const auto& point : study.points) {
     const Vec3 at = point.position - mesh.origin;
-    sensors.push_back({at, normalized(point.normal), key_of_place(point.position, point.normal)});
+    const Vec3 normal = normal_of(point, north_deg);
+    sensors.push_back({at, normalized(normal), key_of_place(point.position, normal)});
     far.look_at(at);
   }
   clear_of_surfaces(mesh, sensors);
@@ -422,8 +430,8 @@ void give_materials(const Study& study, BuiltScene& built) {
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);
   built.scene.luminaires = place_luminaires(study.scene.luminaires, built.scene.mesh,
                                             built.report.bounds, built.warnings);
-  built.scene.sensors =
-      place_sensors(study.sensors, built.scene.mesh, built.report.bounds, built.warnings);
+  built.scene.sensors = place_sensors(study.sensors, built.scene.mesh, built.site.north_deg,
+                                      built.report.bounds, built.warnings);
   if (const auto inside = sensors_in_bodies_warning(study.sensors, built.scene); !inside.empty())
     built.warnings.push_back(inside);
 }

@@ -3,6 +3,7 @@
 /// Sensor files: points with normals, one a row.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,16 @@
 
 namespace sunload {
 
+/// Where a sensor looks, as of a panel: from level, looking up (0), by way of upright (90), to
+/// looking down (180); clockwise from true north.
+struct Tilted {
+  double tilt_deg = 0, azimuth_deg = 0;
+};
+
 /// A sensor as written: absolute, in the frame of the scene (metres, z up).
 struct SensorPoint {
-  Vec3 position, normal;  ///< the normal need not be of unit length
+  Vec3 position, normal;              ///< the normal need not be of unit length
+  std::optional<Tilted> tilted = {};  ///< in place of the normal, whatever north of the scene is
 };
 
 /// The least length that a normal may have: shorter ones are taken for zero.

@@ -10,14 +10,34 @@ namespace sunload::study_sections {
 
 namespace {
 
+constexpr Range tilts_deg{0, 180};
+
+/// `tilt_deg` and `azimuth_deg`, of which one alone is no direction; nothing where none is there.
+std::optional<Tilted> read_tilted(YamlMap& map) {
+  const auto tilt_deg = map.number("tilt_deg", tilts_deg);
+  const auto azimuth_deg = map.number("azimuth_deg", turns_deg);
+  if (map.has("tilt_deg") && !map.has("azimuth_deg") && tilt_deg.value_or(1) != 0)
+    map.require("azimuth_deg", "a tilted sensor looks somewhere");
+  if (map.has("azimuth_deg")) map.require("tilt_deg", "without it the sensor may look up or aside");
+  if (!tilt_deg) return {};
+  return Tilted{*tilt_deg, azimuth_deg.value_or(0)};
+}
+
 std::optional<SensorPoint> read_point(YamlMap& map) {
-  for (const char* key : {"position_m", "normal"}) map.require(key);
+  map.require("position_m");
   const auto position = read_vector(map, "position_m"), normal = read_vector(map, "normal");
+  const auto tilted = read_tilted(map);
+  const bool is_tilted = map.has("tilt_deg") || map.has("azimuth_deg");
+  if (map.has("normal") == is_tilted && map.is_usable())
+    map.reading().problem(
+        map.where(), map.path("normal") + ": write normal, or tilt_deg and azimuth_deg",
+        is_tilted ? "they say the same" : "nothing says where the sensor looks", "");
   if (normal && norm(*normal) < shortest_normal) {
     map.problem("normal", "has no length", "it tells where the sensor looks");
     return {};
   }
-  return position && normal ? std::optional(SensorPoint{*position, *normal}) : std::nullopt;
+  if (!position || !(normal || tilted)) return {};
+  return SensorPoint{*position, normal.value_or(Vec3{}), tilted};
 }
 
 }  // namespace

@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/plan/light_series.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/work_folder.h"
 
 namespace sunload::test {
@@ -105,6 +107,33 @@ TEST_F(Doubts, SeeSensorsWithinBodies) {
   EXPECT_FALSE(inside("oi",
                       ", materials: {net: {transmittance: 0.5}}, assign: [{object: '*', "
                       "material: net}]"));
+}
+
+/// Panels look where they are told, whatever north of the scene is.
+TEST_F(Doubts, SensorsMayBeTilted) {
+  write_town("town.obj", false);
+  const auto normal = [&](const std::string& looks, const std::string& north) {
+    const Study of =
+        study("files: [town.obj]}\nsensors: {points: [{position_m: [-5, 6, 1.5], " + looks + "}]",
+              ", north_deg: " + north);
+    return build_scene(of).scene.sensors.front().normal;
+  };
+  constexpr double rounding = 1e-12;
+  const Vec3 south = normal("tilt_deg: 30, azimuth_deg: 180", "0");
+  EXPECT_LT(norm(south - Vec3{0, -0.5, std::sqrt(0.75)}), rounding);
+  // +y points east: south is +x.
+  EXPECT_LT(norm(normal("tilt_deg: 90, azimuth_deg: 180", "90") - Vec3{1, 0, 0}), rounding);
+  EXPECT_LT(norm(normal("tilt_deg: 0", "90") - Vec3{0, 0, 1}), rounding);
+  EXPECT_LT(norm(normal("tilt_deg: 150, azimuth_deg: 0", "0") + south), rounding);
+  const auto refused = [&](const std::string& looks, const char* said) {
+    const std::string text = refusal_of([&] { normal(looks, "0"); });
+    EXPECT_NE(text.find(said), std::string::npos) << text;
+  };
+  refused("tilt_deg: 30", "azimuth_deg");
+  refused("azimuth_deg: 30", "tilt_deg");
+  refused("tilt_deg: 190, azimuth_deg: 0", "tilt_deg");
+  refused("tilt_deg: 30, azimuth_deg: 0, normal: [0, 0, 1]", "they say the same");
+  refused("", "nothing says where the sensor looks");
 }
 
 TEST_F(Doubts, CompareNorthWithTheMap) {

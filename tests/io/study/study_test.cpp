@@ -1330,7 +1330,8 @@ TEST(CanonicalText, SeesEveryKeyOfTheSchemaButThese) {
       // Hashed apart: bytes of files, points of sensors, the instruction set in force, the standard
       // errors of instants, which are more datasets, and roundings.
       "scene.files[].file", "scene.files[].source", "scene.parallel_sources", "light.weather",
-      "sensors.file", "sensors.points[].position_m", "sensors.points[].normal", "solver.isa",
+      "sensors.file", "sensors.points[].position_m", "sensors.points[].normal",
+      "sensors.points[].tilt_deg", "sensors.points[].azimuth_deg", "solver.isa",
       // Made of finished batches (measures_text).
       "measures.*.rule", "measures.*.of.object", "measures.*.of.facade", "measures.*.of.surface",
       "measures.*.of.selection", "measures.*.date", "measures.*.least_elevation_deg",
