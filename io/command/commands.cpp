@@ -84,7 +84,8 @@ InfoOptions::What table_asked_for(const InfoOptions& options) {
   using What = InfoOptions::What;
   if (options.what.size() > 1)
     throw InputError({},
-                     "--patches, --facades, --objects, --sensors and --measures are one table each",
+                     "--patches, --facades, --objects, --orientations, --sensors and --measures "
+                     "are one table each",
                      "two of them are asked for", "call info once for each");
   if (!options.what.empty()) return options.what.front();
   std::vector<What> of_names;
@@ -103,7 +104,8 @@ InfoOptions::What asked_for(const InfoOptions& options) {
   const What what = table_asked_for(options);
   if (what == What::screen && options.format != InfoOptions::Format::text)
     throw InputError({}, "--csv and --json are of tables", "the screen is for people",
-                     "add --facades, --objects, --selections, --sensors, --measures or --patches");
+                     "add --facades, --objects, --orientations, --selections, --sensors, "
+                     "--measures or --patches");
   if (what == What::patches && options.format == InfoOptions::Format::json)
     throw InputError({}, "--patches with --json", "it is CSV", "leave out --json");
   if (what == What::patches && !options.parts.sensors.empty())
@@ -224,6 +226,9 @@ int print_info(const InfoOptions& options) {
       break;
     case What::objects:
       print_table(result, TableOf::objects, options);
+      break;
+    case What::orientations:
+      print_table(result, TableOf::orientations, options);
       break;
     case What::selections:
       print_table(result, TableOf::selections, options);

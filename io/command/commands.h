@@ -27,7 +27,16 @@ std::unique_ptr<const ResultReader> opened(const NamedResult& named, Opens opens
 
 struct InfoOptions {
   NamedResult result;
-  enum class What { screen, patches, facades, objects, selections, sensors, measures };
+  enum class What {
+    screen,
+    patches,
+    facades,
+    objects,
+    orientations,
+    selections,
+    sensors,
+    measures
+  };
   std::vector<What> what;  ///< that was asked for; empty: what the names are of, or the screen
   NamedParts parts;
   enum class Format { text, csv, json } format = Format::text;

@@ -148,10 +148,11 @@ void add_conversion(const Command& command, ExportGiven& given) {
 }
 
 void add_rows(const Command& command, ExportRules& rules) {
-  command.option("--of", rules.of,
-                 "csv: a row for every patch (default), facade, object, selection or sensor; "
-                 "form-factors: "
-                 "between patches (default), facades, objects or kinds of surface");
+  command.option(
+      "--of", rules.of,
+      "csv: a row for every patch (default), facade, object, orientation, selection or sensor; "
+      "form-factors: "
+      "between patches (default), facades, objects or kinds of surface");
   add_named(command, rules.parts, "csv, gpkg, energyplus: only");
   command.option("--sensor", rules.parts.sensors, "csv, gpkg: only the sensor of that number")
       .repeatable();

@@ -24,6 +24,9 @@ void add_tables(const Command& command, std::vector<InfoOptions::What>& tables) 
   };
   add("--facades", What::facades, "table of the facades: what each of them receives");
   add("--objects", What::objects, "table of the objects");
+  add("--orientations", What::orientations,
+      "table of what the objects' walls and windows receive by eight compass points, and their "
+      "roofs");
   add("--selections", What::selections, "table of the study's selections");
   add("--sensors", What::sensors, "table of the sensors");
   add("--measures", What::measures,

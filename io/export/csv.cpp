@@ -41,10 +41,11 @@ std::optional<TableOf> table_of(const std::string& word) {
   if (word.empty() || word == "patch") return {};
   if (word == "facade") return TableOf::facades;
   if (word == "object") return TableOf::objects;
+  if (word == "orientation") return TableOf::orientations;
   if (word == "selection") return TableOf::selections;
   if (word == "sensor") return TableOf::sensors;
   throw InputError({}, "--of " + word, "no such table",
-                   "write patch, facade, object, selection or sensor");
+                   "write patch, facade, object, orientation, selection or sensor");
 }
 
 void expect_parts_of_patches(const ExportRules& rules) {

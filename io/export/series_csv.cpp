@@ -196,6 +196,10 @@ void expect_fit_for_series(const ExportRules& rules) {
     throw InputError({}, "--quantity series of patches",
                      "its columns are means over surfaces, objects and facades, or sensors",
                      "write --of facade, object or sensor, or read the result file itself");
+  if (rules.of == "orientation")
+    throw InputError({}, "--quantity " + rules.quantity + " of orientations",
+                     "its columns are means over surfaces, objects and facades, or sensors",
+                     "write --of facade; without --quantity their table tells azimuths");
   if (rules.of == "sensor" ? rules.parts.choose_patches()
                            : rules.parts.choose_patches() && !rules.parts.sensors.empty())
     throw InputError({}, "sensors beside facades, objects or selections",

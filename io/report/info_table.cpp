@@ -35,7 +35,7 @@ class TextColumn {
 };
 
 const char* word_of(TableOf of) {
-  constexpr std::array words{"facades", "objects", "selections", "sensors"};
+  constexpr std::array words{"facades", "objects", "orientations", "selections", "sensors"};
   return words[static_cast<std::size_t>(of)];
 }
 

@@ -13,6 +13,7 @@
 #include "io/base/text.h"
 #include "io/batch/facade_means.h"
 #include "io/result/mesh_error.h"
+#include "io/result/patch_groups.h"
 
 namespace sunload {
 namespace {
@@ -123,6 +124,55 @@ Values of_facades(const ResultReader& result) {
   return v;
 }
 
+/// Each object has a row for every orientation, and one for its roofs.
+class ObjectOrientations {
+ public:
+  explicit ObjectOrientations(const ResultReader& result)
+      : objects_(result.strings("object_name")), facing_(orientations(result)) {
+    const auto object = result.integers("patch_object"), surface = result.integers("patch_surface");
+    const auto of_each = static_cast<std::int32_t>(rows_of_each());
+    for (std::size_t p = 0; p < object.size(); ++p) {
+      const bool is_roof = static_cast<Surface>(surface[p]) == Surface::roof;
+      const std::int32_t facing = is_roof ? of_each - 1 : facing_.of_patch[p];
+      entry_.push_back(facing < 0 ? -1 : object[p] * of_each + facing);
+    }
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto& object : objects_) {
+      for (const auto& facing : facing_.names) all.push_back(object + "/" + facing);
+      all.push_back(object + "/roof");
+    }
+    return all;
+  }
+
+  std::vector<std::size_t> rows_of(const std::vector<std::size_t>& objects) const {
+    std::vector<std::size_t> rows;
+    for (const std::size_t object : objects)
+      for (std::size_t k = 0; k < rows_of_each(); ++k) rows.push_back(object * rows_of_each() + k);
+    return rows;
+  }
+
+  Values values(const ResultReader& result) const {
+    Values v = of_patches(result, entry_, objects_.size() * rows_of_each());
+    const auto sectors = static_cast<double>(facing_.names.size());
+    for (std::size_t row = 0; row < v.azimuth_deg.size(); ++row) {
+      const std::size_t facing = row % rows_of_each();
+      if (facing < facing_.names.size())
+        v.azimuth_deg[row] = static_cast<double>(facing) * 360 / sectors;
+    }
+    return v;
+  }
+
+ private:
+  std::size_t rows_of_each() const { return facing_.names.size() + 1; }
+
+  std::vector<std::string> objects_;
+  PatchDivision facing_;
+  std::vector<std::int32_t> entry_;
+};
+
 /// They may overlap: one after the other.
 Values of_selections(const ResultReader& result) {
   Values all;
@@ -226,9 +276,11 @@ GroupTable chosen_rows(TableOf of, const std::vector<std::string>& names,
 void expect_own_kind(TableOf of, const NamedParts& parts) {
   Problems problems;
   const auto refuse = [&](TableOf kind, const char* word, const auto& names) {
-    if (of != kind && !names.empty())
+    // Orientations are those of objects.
+    const bool is_own = of == kind || (of == TableOf::orientations && kind == TableOf::objects);
+    if (!is_own && !names.empty())
       problems.add({}, fmt::format("--{} {} in another table", word, names.front()),
-                   "a table holds facades, objects, selections or sensors",
+                   "a table holds facades, objects, orientations, selections or sensors",
                    fmt::format("choose the table of {0}s, or name its own rows, e.g. --facade "
                                "'house_3/*' among facades",
                                word));
@@ -260,6 +312,11 @@ GroupTable group_table(const ResultReader& result, TableOf of, const NamedParts&
       return rows("objects", names, chosen_objects(result, parts), [&](const ResultReader& r) {
         return of_patches(r, r.integers("patch_object"), names.size());
       });
+    }
+    case TableOf::orientations: {
+      const ObjectOrientations all(result);
+      return rows("objects", all.names(), all.rows_of(chosen_objects(result, parts)),
+                  [&](const ResultReader& r) { return all.values(r); });
     }
     case TableOf::selections:
       return rows("selections (the study has no section selections)", selection_names(result),

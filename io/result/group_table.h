@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The table of facades, objects, selections or sensors: what each of them receives.
+/// The table of facades, objects, their orientations, selections or sensors: what each receives.
 #pragma once
 
 #include <string>
@@ -11,8 +11,9 @@
 
 namespace sunload {
 
-/// What the rows are.
-enum class TableOf { facades, objects, selections, sensors };
+/// What the rows are. Orientations: of every object its walls and windows by eight compass points,
+/// and its roofs: "house_3/south", "house_3/roof".
+enum class TableOf { facades, objects, orientations, selections, sensors };
 
 /// One column of numbers; NaN: there is none, or it is not known.
 struct TableColumn {
@@ -30,10 +31,11 @@ struct GroupTable {
   std::vector<TableColumn> columns;
 };
 
-/// A row for every facade, object, selection or sensor that `parts` chooses and that has area, in
-/// the order of the file. Columns: azimuth_deg (clockwise from north; none of objects and
-/// selections, and of sensors that look straight up or down), area_m2 (of an object both sides;
-/// none of sensors), the area-weighted mean light load with its standard error, that of the mesh
+/// A row for every facade, object, orientation (of the objects that are chosen), selection or
+/// sensor that `parts` chooses and that has area, in the order of the file. Columns: azimuth_deg
+/// (clockwise from north; of orientations the middle of their eighth; none of objects, selections
+/// and roofs, and of sensors that look straight up or down), area_m2 (of an object both sides; none
+/// of sensors), the area-weighted mean light load with its standard error, that of the mesh
 /// (io/result/mesh_error; none of sensors), load and standard error times the area, sun_hours_h and
 /// sky_view_factor (means), irradiance_max_w_m2 (largest of any patch at any instant); of sensors
 /// also x_m, y_m, z_m, absolute. Loads of facades are those of the file; standard errors come from

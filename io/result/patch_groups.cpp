@@ -34,25 +34,6 @@ std::vector<char> is_upright(const ResultReader& result) {
   return upright;
 }
 
-PatchDivision orientations(const ResultReader& result) {
-  PatchDivision division{
-      "orientation",
-      {"north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"},
-      {}};
-  const auto x = components(result, "patch_normal", 0), y = components(result, "patch_normal", 1);
-  const double north = result.number_attribute("north_deg");
-  const double turn_deg = std::isnan(north) ? 0 : north;
-  const auto upright = is_upright(result);
-  const double sector_deg = 360.0 / static_cast<double>(division.names.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double azimuth = horizontal({x[i], y[i], 0}).azimuth_deg + turn_deg;
-    const auto sector =
-        static_cast<std::int32_t>(wrapped_deg(azimuth + sector_deg / 2) / sector_deg);
-    division.of_patch.push_back(upright[i] != 0 ? sector : -1);
-  }
-  return division;
-}
-
 /// By the height of a patch's middle above the lowest corner of its object.
 PatchDivision storeys(const ResultReader& result, double storey_m) {
   constexpr std::int32_t highest = 1000;
@@ -82,6 +63,25 @@ PatchDivision storeys(const ResultReader& result, double storey_m) {
 }
 
 }  // namespace
+
+PatchDivision orientations(const ResultReader& result) {
+  PatchDivision division{
+      "orientation",
+      {"north", "north-east", "east", "south-east", "south", "south-west", "west", "north-west"},
+      {}};
+  const auto x = components(result, "patch_normal", 0), y = components(result, "patch_normal", 1);
+  const double north = result.number_attribute("north_deg");
+  const double turn_deg = std::isnan(north) ? 0 : north;
+  const auto upright = is_upright(result);
+  const double sector_deg = 360.0 / static_cast<double>(division.names.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double azimuth = horizontal({x[i], y[i], 0}).azimuth_deg + turn_deg;
+    const auto sector =
+        static_cast<std::int32_t>(wrapped_deg(azimuth + sector_deg / 2) / sector_deg);
+    division.of_patch.push_back(upright[i] != 0 ? sector : -1);
+  }
+  return division;
+}
 
 std::vector<PatchDivision> patch_divisions(const ResultReader& result, const MoreGroups& more) {
   const std::size_t patches = result.shape("patch_area").front();

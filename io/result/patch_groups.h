@@ -35,6 +35,9 @@ struct PatchDivision {
   std::vector<std::int32_t> of_patch;  ///< which of the names; -1: none
 };
 
+/// Walls and windows by eight compass points from north on, clockwise: "north", "north-east", …
+PatchDivision orientations(const ResultReader& result);
+
 /// Order: the whole, then surfaces, objects, facades and selections (each one of its own) as the
 /// file lists them, then those besides.
 std::vector<PatchDivision> patch_divisions(const ResultReader& result, const MoreGroups& more = {});

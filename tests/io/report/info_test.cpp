@@ -167,6 +167,22 @@ TEST(InfoTables, ObjectsAreOfBothTheirSides) {
   EXPECT_TRUE(std::isnan(value_of(table, "azimuth_deg", "awning")));
 }
 
+TEST(InfoTables, OrientationsAreOfEachObject) {
+  const ResultReader result(write_small_result(scattered(), "info_orientations"));
+  const auto table = group_table(result, TableOf::orientations, {{}, {"house_1"}, {}});
+  EXPECT_EQ(table.names, (std::vector<std::string>{"house_1/north", "house_1/east", "house_1/south",
+                                                   "house_1/west", "house_1/roof"}));
+  const auto facades = group_table(result, TableOf::facades, {});
+  for (const char* column : {"azimuth_deg", "area_m2", "light_load_kwh_m2", "energy_se_kwh"})
+    EXPECT_NEAR(value_of(table, column, "house_1/south"),
+                value_of(facades, column, "house_1/south_1"), 1e-9)
+        << column;
+  EXPECT_NEAR(value_of(table, "area_m2", "house_1/roof"), 80, 1e-9);
+  EXPECT_NEAR(value_of(table, "light_load_kwh_m2", "house_1/roof"), 3, 1e-12);
+  EXPECT_TRUE(std::isnan(value_of(table, "azimuth_deg", "house_1/roof")));
+  EXPECT_THROW(group_table(result, TableOf::orientations, {{"house_1/*"}, {}, {}}), InputError);
+}
+
 TEST(InfoTables, TextCsvAndJsonHaveTheSameRows) {
   SmallResult small = scattered();
   small.houses.front().name = "a, \"b\"";
