@@ -6,14 +6,13 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <string_view>
 
 #include "geo/base/units.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/edge_table.h"
+#include "geo/mesh/foot_supports.h"
 #include "geo/mesh/plan_lines.h"
-#include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -21,9 +20,7 @@ namespace sunload {
 namespace {
 
 constexpr double steepest_edge = 1.7321;  // tan 60 degrees: steeper edges are corners of walls
-constexpr double inside_m = 0.05;         // behind a wall one asks what is below it
-constexpr double half = 0.5;
-constexpr double lowest_house_m = 2;  // of what nothing says is one
+constexpr double lowest_house_m = 2;      // of what nothing says is one
 
 /// CityJSON 2.0.1, section 2.2, and types of extensions, which begin with a plus.
 bool is_building(const std::string& kind) {
@@ -98,9 +95,8 @@ class FootFinder {
     std::erase_if(
         feet_, [&](const Foot& foot) { return foot.edges.empty() || is_low_without_type(foot); });
     take_out_panes();
-    find_roofs_and_floors();
-    find_stacked();
-    find_resting();
+    find_floors();
+    find_supports(mesh_, bodies_, feet_);
     for (Foot& foot : feet_) find_rims(foot);
     find_hovering();
     return std::move(feet_);
@@ -268,134 +264,17 @@ class FootFinder {
     lower.resize(kept);
   }
 
-  /// Triangles that look up, but for land, and floors of the feet.
-  void find_roofs_and_floors() {
+  void find_floors() {
     std::vector<Foot*> foot_of(bodies_.bodies.size(), nullptr);
     for (Foot& foot : feet_) foot_of[static_cast<std::size_t>(foot.body)] = &foot;
-    std::vector<std::size_t> roofs, land;
     for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
-      const auto slope = slope_of(mesh_, t);
-      const auto body = bodies_.triangle_body[t];
-      if (slope == Slope::downward && body >= 0 && foot_of[static_cast<std::size_t>(body)])
-        add_floor(*foot_of[static_cast<std::size_t>(body)], t);
-      if (slope != Slope::upward) continue;
-      const bool is_of_land = mesh_.triangle_surface[t] == Surface::ground ||
-                              is_land(mesh_.object_kinds[mesh_.triangle_object[t].index()]);
-      (is_of_land ? land : roofs).push_back(t);
+      const auto b = bodies_.triangle_body[t];
+      if (b < 0 || slope_of(mesh_, t) != Slope::downward) continue;
+      Foot* const foot = foot_of[static_cast<std::size_t>(b)];
+      const Box box = box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
+      if (foot && box.high.z <= floor_high_[static_cast<std::size_t>(b)] + level_m)
+        foot->floors.push_back(t);
     }
-    roof_triangles_ = roofs;
-    roofs_.emplace(mesh_, std::move(roofs));
-    land_.emplace(mesh_, std::move(land));
-  }
-
-  void add_floor(Foot& foot, std::size_t t) const {
-    const Box box = box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
-    if (box.high.z <= floor_high_[static_cast<std::size_t>(foot.body)] + level_m)
-      foot.floors.push_back(t);
-  }
-
-  /// The point of a lower edge, at a share of its length, just inside of the wall above.
-  Vec3 inside_of(const LowerEdge& e, double share) const {
-    const Vec3 a = at(e.ends[0]), b = at(e.ends[1]);
-    return a + share * (b - a) - inside_m * normalized(mesh_.area_vector2(e.wall));
-  }
-
-  /// Bodies that have another one below most of their foot.
-  void find_stacked() {
-    for (Foot& foot : feet_) {
-      double supported = 0, all = 0;
-      for (const auto& e : lower_[static_cast<std::size_t>(foot.body)]) {
-        const double length = norm(at(e.ends[1]) - at(e.ends[0]));
-        all += length;
-        if (has_roof_below(foot, inside_of(e, half))) supported += length;
-      }
-      if (supported > half * all) foot.stance = Stance::body;
-    }
-  }
-
-  /// Of another body, and no higher than at its foot.
-  bool has_roof_below(const Foot& foot, Vec3 p) const {
-    bool is_there = false;
-    roofs_->visit_heights(p.x, p.y, [&](std::size_t t, double z) {
-      is_there |= bodies_.triangle_body[t] != foot.body && z <= p.z + foot_tolerance(infinity);
-    });
-    return is_there;
-  }
-
-  /// What has less than half of its foot on another body, a slab on a core, a house that juts out
-  /// over a lower one, stands on that where land would have to climb to its foot.
-  void find_resting() {
-    const std::vector<double> support_low = lowest_supports();
-    for (std::size_t f = 0; f < feet_.size(); ++f)
-      if (feet_[f].stance == Stance::ground && support_low[f] < infinity && rests(f, support_low))
-        feet_[f].stance = Stance::body;
-  }
-
-  /// Per foot: the lowest point of the bodies whose roofs touch it; infinity where none does, or
-  /// none is lower by a step that counts.
-  std::vector<double> lowest_supports() const {
-    constexpr double least_rise_m = 0.5;
-    std::vector<double> lowest(feet_.size(), infinity);
-    const auto touch = [&](std::size_t f, std::int32_t body) {
-      if (body < 0 || body == feet_[f].body) return;
-      const double low = bodies_.bodies[static_cast<std::size_t>(body)].box.low.z;
-      if (feet_[f].box.low.z - low > least_rise_m) lowest[f] = std::min(lowest[f], low);
-    };
-    for (std::size_t f = 0; f < feet_.size(); ++f)
-      for (const auto& e : lower_[static_cast<std::size_t>(feet_[f].body)])
-        for (const double share : along_edges) {
-          const Vec3 p = inside_of(e, share);
-          roofs_->visit_heights(p.x, p.y, [&](std::size_t t, double z) {
-            if (std::abs(z - p.z) <= foot_tolerance(infinity)) touch(f, bodies_.triangle_body[t]);
-          });
-        }
-    // Roofs within a floor touch none of its edges.
-    std::vector<std::size_t> floors;
-    std::map<std::size_t, std::size_t> foot_of;
-    for (std::size_t f = 0; f < feet_.size(); ++f)
-      for (const std::size_t t : feet_[f].floors) {
-        floors.push_back(t);
-        foot_of[t] = f;
-      }
-    const PlanTriangles all_floors(mesh_, std::move(floors));
-    for (const std::size_t t : roof_triangles_) {
-      const Vec3 p = (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3;
-      all_floors.visit_heights(p.x, p.y, [&](std::size_t floor, double z) {
-        if (std::abs(z - p.z) <= foot_tolerance(infinity))
-          touch(foot_of.at(floor), bodies_.triangle_body[t]);
-      });
-    }
-    return lowest;
-  }
-
-  /// Whether the land is below the free part of a foot: where the model has land, most of it; else
-  /// by the feet about it, of which no more are nearer to its height than to that of its support.
-  bool rests(std::size_t f, const std::vector<double>& support_low) const {
-    constexpr double on_land_m = 1;  // what land may be off, and a plinth
-    const Foot& foot = feet_[f];
-    double above = 0, on = 0;
-    for (const auto& e : lower_[static_cast<std::size_t>(foot.body)])
-      for (const double share : along_edges) {
-        const Vec3 p = inside_of(e, share);
-        if (has_roof_below(foot, p)) continue;
-        double highest = -infinity;
-        land_->visit_heights(p.x, p.y,
-                             [&](std::size_t, double z) { highest = std::max(highest, z); });
-        if (highest == -infinity) continue;
-        (highest < p.z - on_land_m ? above : on) += norm(at(e.ends[1]) - at(e.ends[0]));
-      }
-    if (above + on > 0) return above > on;
-    int nearer_to_foot = 0, nearer_to_support = 0;
-    for (std::size_t g = 0; g < feet_.size(); ++g) {
-      const Foot& other = feet_[g];
-      if (g == f || other.stance != Stance::ground || support_low[g] < infinity ||
-          !meet(upright(widened(foot.box, foot_reach_m)), other.box))
-        continue;
-      const double z = other.box.low.z, up = std::abs(z - foot.box.low.z),
-                   down = std::abs(z - support_low[f]);
-      ++(up < down ? nearer_to_foot : nearer_to_support);
-    }
-    return nearer_to_foot <= nearer_to_support;
   }
 
   /// Edges that one floor has alone, but for those with a wall above: party walls are missing in
@@ -455,7 +334,6 @@ class FootFinder {
     }
   }
 
-  static constexpr std::array along_edges{0.1, 0.3, 0.5, 0.7, 0.9};  // shares of their length
   static constexpr double level_m = 1e-3;  // and the least area that counts [m2]
 
   const Mesh& mesh_;
@@ -466,9 +344,6 @@ class FootFinder {
   std::vector<std::vector<LowerEdge>> lower_;  // per body
   std::vector<double> floor_high_;             // per body: of edges at the foot, and rims of floors
   std::vector<Foot> feet_;
-  std::vector<std::size_t> roof_triangles_;  // that look up, but for land …
-  std::optional<PlanTriangles> roofs_;       // … to be asked by points
-  std::optional<PlanTriangles> land_;
 };
 
 }  // namespace

@@ -57,9 +57,7 @@ struct Foot {
 /// A lower edge has an upright face above it, and below it a face that looks down or nothing. Of a
 /// body those count that are at its foot or reached from there along lower edges (a foot on a
 /// slope). Of a sheet without a roof, a single wall perhaps, the foot is that of its object.
-/// A body that has another one below most of its foot stands on that, and so does one that a lower
-/// one's roof touches in part, where land would have to climb to the rest of its foot: by the
-/// model's land, or else by the feet about it.
+/// Some stand on other bodies (geo/mesh/foot_supports).
 /// Where the feet of two bodies are too far above each other for the land between them, the one
 /// that has more area against it is taken to hover.
 std::vector<Foot> find_feet(const Mesh& mesh, const Bodies& bodies, SceneKind kind);

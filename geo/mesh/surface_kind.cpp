@@ -131,16 +131,18 @@ class Decision {
   }
 
   /// At its middle and just inside of its corners: what is in part over the edge of a table is cut
-  /// there later (geo/mesh/covered).
+  /// there later (geo/mesh/covered). Of a city, where files leave gaps between bodies that stand on
+  /// each other, also a little above.
   bool is_supported(std::size_t t, std::int32_t b, const Supports& supports) const {
-    constexpr double inside = 0.99;
+    constexpr double inside = 0.99, gap_of_city_m = 0.5;
     const Heights heights = heights_of(bodies_.bodies[static_cast<std::size_t>(b)]);
     const Vec3 middle = (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3;
     for (int k = 0; k < 4; ++k) {
       const Vec3 p = k < 3 ? middle + inside * (mesh_.corner(t, k) - middle) : middle;
       double support_z = supports.below(b, p.x, p.y, heights.high);
       if (standing_.level_z) support_z = std::max(support_z, *standing_.level_z);
-      if (!(support_z >= p.z - heights.touching())) return false;
+      const double gap_m = kind_ == SceneKind::city ? gap_of_city_m : heights.touching();
+      if (!(support_z >= p.z - gap_m)) return false;
     }
     return true;
   }

@@ -9,6 +9,7 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "geo/mesh/mesh.h"
 #include "io/base/statistics.h"
 #include "io/base/text.h"
 #include "io/batch/facade_means.h"
@@ -141,7 +142,7 @@ class ObjectOrientations {
   std::vector<std::string> names() const {
     std::vector<std::string> all;
     for (const auto& object : objects_) {
-      for (const auto& facing : facing_.names) all.push_back(object + "/" + facing);
+      for (const auto& facing : facing_.names) all.push_back(fmt::format("{}/{}", object, facing));
       all.push_back(object + "/roof");
     }
     return all;

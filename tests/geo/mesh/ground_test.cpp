@@ -275,6 +275,25 @@ TEST(Ground, AHouseOverAGarageInTheSlopeStandsOnTheLand) {
   }
 }
 
+/// One neighbour is enough to tell that, and so is a row of houses with garages of their own; a
+/// roof that reaches under a house by the inexactness of outlines carries nothing.
+TEST(Ground, HousesWithGaragesInTheSlopeTellOfTheLandTogether) {
+  for (const double under_m : {0.1, 3.0})
+    for (const int houses : {1, 6}) {
+      auto builder = ModelBuilder().city();
+      for (int k = 0; k < houses; ++k) {
+        const double x = 20.0 * k;
+        const auto name = [&](const char* of) { return of + std::to_string(k); };
+        builder.object(name("house_"), "Building").box({x, 0, 3}, {x + 12, 10, 12});
+        builder.object(name("garage_"), "Building").box({x + 1, -5, 0}, {x + 5, under_m, 3});
+      }
+      if (houses == 1) builder.object("neighbour", "Building").box({20, 0, 3}, {30, 10, 9});
+      const auto p = builder.prepared(on_feet());
+      EXPECT_EQ(p.report.ground->on_others, 0u) << under_m << " " << houses;
+      for (const double z : ground_at(p.mesh, 16, 5)) EXPECT_NEAR(z, 3, 1e-6);
+    }
+}
+
 /// Panes of a plain file, before a wall or set back into it: land would climb to their sills.
 TEST(Ground, PanesOnWallsHaveNoFeet) {
   for (const double before : {0.0, 0.03, -0.2}) {
