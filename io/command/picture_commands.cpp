@@ -161,7 +161,7 @@ void add_rows(const Command& command, ExportRules& rules) {
 void add_light(const Command& command, ExportRules& rules) {
   command.option("--quantity", rules.quantity,
                  "dataset per patch, or radiance (default: light_load; csv and xdmf: all); "
-                 "csv: series");
+                 "csv: series, or with --of any series");
   command.option("--time", rules.time,
                  "instant of a series, e.g. 2026-06-21T12:00 (default: the brightest)");
   command.choice("--colour", rules.palette,

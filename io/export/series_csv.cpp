@@ -20,6 +20,8 @@
 namespace sunload {
 namespace {
 
+constexpr std::string_view sensor_prefix = "sensor_";
+
 /// Columns of light: their heads, and their values in an interval.
 struct SeriesColumns {
   std::vector<std::string> heads;
@@ -152,40 +154,65 @@ bool is_of_sensors(const ExportRules& rules) {
   return rules.of == "sensor" || (rules.of.empty() && !rules.parts.sensors.empty());
 }
 
-/// Series of patches whose means over groups mean something.
+/// What can be asked for: series of patches whose means over groups mean something, or what sensors
+/// have over time, without the beginning of their names.
 std::vector<std::string> series_of_groups(const ResultReader& result) {
   auto names = patch_datasets(result, PatchDatasets::series);
   std::erase_if(names, [](const std::string& name) { return name.ends_with("_se"); });
   return names;
 }
+std::vector<std::string> series_of_sensors(const ResultReader& result) {
+  std::vector<std::string> names;
+  for (const auto& variable : result_schema(result.quantity()))
+    if (variable.dims == "time,sensor" && result.has(std::string(variable.name)))
+      names.emplace_back(variable.name.substr(sensor_prefix.size()));
+  return names;
+}
 
-/// The series of the quantity asked for; none where the result has no light over time. Throws
-/// InputError for a quantity that it does not have.
-std::optional<std::string> wanted_series(const ResultReader& result, const ExportRules& rules) {
-  const bool of_sensors = is_of_sensors(rules);
-  const std::string all_light = dataset_name("irradiance", result.quantity());
-  const std::string quantity = rules.quantity == "series" ? all_light : rules.quantity;
-  const std::string dataset = of_sensors ? "sensor_" + quantity : quantity;
-  const auto known = series_of_groups(result);
-  const bool is_there = of_sensors ? result.has(dataset) && result.shape(dataset).size() == 2
-                                   : std::find(known.begin(), known.end(), dataset) != known.end();
-  if (is_there) return dataset;
-  if (rules.quantity == "series" && !of_sensors) return {};
-  if (of_sensors)
-    throw InputError({result.path()}, "no series " + dataset, "",
-                     result.has("sensor_position")
-                         ? fmt::format("write series, {0}_direct, {0}_sky, {0}_mirror, "
-                                       "{0}_reflected or {0}_se",
-                                       all_light)
-                         : "the study has no sensors");
-  throw InputError({result.path()}, "no series " + quantity + " of groups of patches",
-                   quantity.ends_with("_se") ? "a mean of standard errors is none of a mean"
-                   : result.has(quantity)    ? "totals have no intervals"
-                                             : "none is stored",
+[[noreturn]] void refuse_quantity(const ResultReader& result, const std::string& quantity,
+                                  bool of_sensors, const std::vector<std::string>& known) {
+  const std::string what = of_sensors ? "sensors" : "groups of patches";
+  const bool is_there = result.has((of_sensors ? std::string(sensor_prefix) : "") + quantity);
+  const std::string why =
+      !of_sensors && quantity.ends_with("_se")       ? "a mean of standard errors is none of a mean"
+      : of_sensors && !result.has("sensor_position") ? "the study has no sensors"
+      : is_there                                     ? "totals have no intervals"
+                                                     : "none is stored";
+  throw InputError({result.path()}, "no series " + quantity + " of " + what, why,
                    known.empty() ? "run the study with output.series: [total]"
                                  : fmt::format("write series, or one of {}; output.series of the "
                                                "study stores others",
                                                fmt::join(known, ", ")));
+}
+
+/// The dataset of the quantity asked for; none where the result has no light over time. Throws
+/// InputError for a quantity that it does not have.
+std::optional<std::string> wanted_series(const ResultReader& result, const ExportRules& rules) {
+  const bool of_sensors = is_of_sensors(rules);
+  const bool is_of_all = rules.quantity == "series";
+  const std::string quantity =
+      is_of_all ? dataset_name("irradiance", result.quantity()) : rules.quantity;
+  const auto known = of_sensors ? series_of_sensors(result) : series_of_groups(result);
+  if (std::find(known.begin(), known.end(), quantity) != known.end())
+    return (of_sensors ? std::string(sensor_prefix) : "") + quantity;
+  if (is_of_all && !of_sensors) return {};
+  refuse_quantity(result, quantity, of_sensors, known);
+}
+
+/// Names of what has no column would be given in vain.
+void expect_own_names(const ExportRules& rules) {
+  const auto refuse = [&](const char* kind, const std::vector<std::string>& names) {
+    if (!rules.of.empty() && rules.of != kind && !names.empty())
+      throw InputError({}, fmt::format("--{} {} with --of {}", kind, names.front(), rules.of),
+                       "the columns are of one kind", fmt::format("write --of {}", kind));
+  };
+  refuse("facade", rules.parts.facades);
+  refuse("object", rules.parts.objects);
+  refuse("selection", rules.parts.selections);
+  refuse("sensor", rules.parts.sensors);
+  if (rules.of.empty() && rules.parts.choose_patches() && !rules.parts.sensors.empty())
+    throw InputError({}, "sensors beside facades, objects or selections",
+                     "a table has columns of one kind", "write two tables");
 }
 
 void expect_fit_for_series(const ExportRules& rules) {
@@ -200,10 +227,7 @@ void expect_fit_for_series(const ExportRules& rules) {
     throw InputError({}, "--quantity " + rules.quantity + " of orientations",
                      "its columns are means over surfaces, objects and facades, or sensors",
                      "write --of facade; without --quantity their table tells azimuths");
-  if (rules.of == "sensor" ? rules.parts.choose_patches()
-                           : rules.parts.choose_patches() && !rules.parts.sensors.empty())
-    throw InputError({}, "sensors beside facades, objects or selections",
-                     "a table has columns of one kind", "write two tables");
+  expect_own_names(rules);
 }
 
 }  // namespace

@@ -80,8 +80,8 @@ void look_at_site(const InitRules& rules, const BuiltScene& built, Findings& fou
                               found.crs.empty() ? "" : area_of_use_words(found.crs));
   // That of another country, whose summer times are its own: better the weather's offset alone.
   constexpr double other_country_m = 1000e3;
-  if (offset && found.zone && found.zone->away_m > other_country_m)
-    found.zone = ZoneGuess{offset_text(*offset), 0};
+  if (offset && found.zone && found.zone->away_m.value_or(0) > other_country_m)
+    found.zone = ZoneGuess{offset_text(*offset)};
   if (has_station && found.site && !found.is_at_station)
     found.station_away_m =
         distance_m(*found.site, {.latitude_deg = found.weather->place->latitude_deg,

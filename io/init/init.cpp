@@ -25,6 +25,7 @@
 #include "io/plan/rules_of_study.h"
 #include "io/plan/variant_mesh.h"
 #include "io/plan/work_estimate.h"
+#include "io/scene/file.h"
 #include "io/study/named_files.h"
 #include "solver/mesh/hierarchy.h"
 
@@ -67,6 +68,13 @@ void expect_writable(const std::string& path) {
 void expect_names_for_study(const InitRules& rules, const std::string& path) {
   for (const std::string* file : {&rules.model, &rules.weather, &rules.terrain, &rules.canopy})
     if (!file->empty()) path_in_study(*file, folder_of(path));
+}
+
+/// Where columns are named.
+void expect_plan_data(const InitRules& rules) {
+  if ((rules.height.empty() && rules.storeys.empty()) || is_of_footprints(rules.model)) return;
+  throw InputError({rules.model}, "--height and --storeys name columns of plan data",
+                   "the model is of another format", "leave them out");
 }
 
 /// The same, with each `from` in it as `to`.
@@ -192,6 +200,7 @@ int init_study(const InitRules& given, const std::string& wanted) {
     throw InputError({path, 0, 0}, "is no name of a study", "commands tell studies by it",
                      "let it end in .yaml");
   expect_names_for_study(rules, path);
+  expect_plan_data(rules);
   expect_free(path);
   expect_writable(path);
   Findings found = findings_of(rules);

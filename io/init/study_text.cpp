@@ -75,7 +75,7 @@ std::string head_text(const std::string& name, const InitRules& rules) {
 std::string zone_text(const InitRules& rules, const Findings& found) {
   if (!rules.zone.empty()) return quoted(rules.zone);
   if (!found.zone) return "UTC";
-  return found.zone->away_m > 0 ? found.zone->name : quoted(found.zone->name);
+  return found.zone->away_m ? found.zone->name : quoted(found.zone->name);
 }
 
 std::string zone_comment(const InitRules& rules, const Findings& found) {
@@ -85,13 +85,13 @@ std::string zone_comment(const InitRules& rules, const Findings& found) {
         "# {} times are in UTC: no table of time zones is here; write e.g. "
         "Europe/Berlin\n",
         mark);
-  if (found.zone->away_m == 0)
+  if (!found.zone->away_m)
     return fmt::format(
         "# {} timezone: the weather's offset from UTC; its zone would know summer times\n", mark);
   return fmt::format(
       "# {} timezone: that of the nearest place in the table of zones, {:.0f} km away; borders are "
       "not known to it\n",
-      mark, found.zone->away_m / 1000);
+      mark, *found.zone->away_m / 1000);
 }
 
 /// What is known where no place is.

@@ -9,8 +9,9 @@
 namespace sunload {
 
 struct ZoneGuess {
-  std::string name;   ///< IANA, e.g. Europe/Amsterdam
-  double away_m = 0;  ///< of the place that the database gives the zone
+  std::string name;  ///< IANA, e.g. Europe/Amsterdam
+  /// Of the place that the database gives the zone; nothing of an offset, which has none.
+  std::optional<double> away_m = {};
 };
 
 /// The zone whose place (`zone.tab`: one for each zone and country) is nearest; of those with that

@@ -300,7 +300,7 @@ void tell_of_hidden(const Study& study, BuiltScene& built) {
     const double depth_m = depth_below(land, centre_of_triangle(mesh, tops[o]));
     if (depth_m >= deep_m)
       buried.add(fmt::format("{} by {:.2f} m", name, depth_m));
-    else
+    else if (depth_m <= 0)
       (built.placed.contains(name) ? placed_inside : inside).add(name);
   }
   const char* const unseen = "no light reaches them, and they are in no result";

@@ -272,7 +272,14 @@ void keep_named(Comparison& comparison, const NamedParts& parts, const std::stri
   keep("facade", parts.facades);
   keep("object", parts.objects);
   keep("selection", parts.selections);
-  keep("sensor", parts.sensors);
+  const bool has_sensors =
+      std::ranges::any_of(comparison.rows, [](const auto& row) { return row.kind == "sensor"; });
+  if (!parts.sensors.empty() && !has_sensors)
+    problems.add({path}, "no sensors to compare",
+                 "the results have none, or no " + comparison.dataset + " of them",
+                 "compare light_load, sun_hours or sky_view_factor of studies with sensors");
+  else
+    keep("sensor", parts.sensors);
   problems.throw_if_any();
   std::vector<ComparisonRow> rows;
   for (std::size_t i = 0; i < is_kept.size(); ++i)

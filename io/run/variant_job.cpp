@@ -334,8 +334,11 @@ int VariantJob::merge_what_is_there(Merge merge) {
     merge_without(missing);
     return exit_code::done;
   }
-  say(fmt::format("{} of {} batches are missing:{}; run the study again with --resume{}",
+  const auto state = folder_.state();
+  const bool is_of_other_state = state && state != folder_.wanted_state();
+  say(fmt::format("{} of {} batches are missing:{}; run the study again with {}{}",
                   missing.numbers.size(), plan_.batches(), list_text(missing.numbers),
+                  is_of_other_state ? "--overwrite" : "--resume",
                   folder_.has_others() ? " (there is work of another state of the study, too: was "
                                          "it edited meanwhile?)"
                                        : ""));

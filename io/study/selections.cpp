@@ -116,7 +116,12 @@ class SelectionsByName {
 
   /// With what it leaves out, and what that leaves out.
   NamedSelection whole(NamedSelection selection) {
+    constexpr std::size_t most = 10'000;  // that are named, by way of others: each is a copy
     leaving_out_.push_back(selection.name);
+    if (++named_ == most)
+      reading_.problem(selection.where, "selections leave out too many others by way of others",
+                       fmt::format("more than {} in all", most), "write what they are");
+    if (named_ >= most) selection.except.clear();
     for (NamedSelection& other : selection.except) {
       const Where where = other.where;
       if (std::find(leaving_out_.begin(), leaving_out_.end(), other.name) != leaving_out_.end())
@@ -134,6 +139,7 @@ class SelectionsByName {
   YamlReading& reading_;
   const std::vector<NamedSelection>& written_;
   std::vector<std::string> names_, leaving_out_;
+  std::size_t named_ = 0;
 };
 
 }  // namespace

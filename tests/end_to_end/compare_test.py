@@ -168,6 +168,16 @@ def test_sensors(sunload, folder):
     for row, mean, error in zip(rows(dark), means, se, strict=True):
         assert row["paired"] == "true" and row["area_m2"] == "" and mean < 0
         assert np.allclose([float(row["difference_kwh_m2"]), float(row["se_kwh_m2"])], [mean, error], rtol=1e-6), row
+    series = list(csv.DictReader(io.StringIO(run([sunload, "export", base, "--to", "csv", "--of", "sensor",
+                                                  "--quantity", "irradiance_direct"]))))
+    with h5py.File(base) as a:
+        of_file = a["sensor_irradiance_direct"][()]
+    for k in (0, 1):
+        mine = [float(row[f"sensor_irradiance_direct_w_m2 sensor {k}"]) for row in series]
+        assert np.allclose(mine, of_file[:, k], rtol=1e-6), k
+    assert not np.allclose(of_file[:, 0], of_file[:, 1]), "the test does not see the order"
+    for total in ("light_load_realization", "sun_hours", "position"):
+        run([sunload, "export", base, "--to", "csv", "--of", "sensor", "--quantity", total], 2)
     assert [row["difference_kwh_m2"] == "" for row in rows(apart)] == [False, True, True]
     assert all(row["se"] == "" and float(row["difference"]) == 0 for row in rows(dark, "--quantity", "sun_hours"))
     assert not any(row["significant"] == "true" for row in rows(coarse)), "the mesh alone differs"

@@ -51,7 +51,7 @@ double number_of(const json& object, const char* key, double otherwise) {
 /// A unit quaternion (x, y, z, w) as axes, whatever rounding has made of its length; nothing for
 /// one of another length, which is no rotation.
 std::optional<Affine> rotation(const std::array<double, 4>& q) {
-  constexpr double rounding = 0.02;  // of bytes, of which instances may be
+  constexpr double rounding = 0.04;  // of bytes, of which instances may be, also cut off
   const auto [x, y, z, w] = q;
   const double length2 = x * x + y * y + z * z + w * w;
   if (!(std::abs(length2 - 1) <= rounding)) return {};

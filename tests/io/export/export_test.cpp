@@ -321,7 +321,7 @@ TEST(Export, SeriesOfPartsAreThoseThatAreStored) {
             std::string::npos);
   EXPECT_NE(said("light_load").find("(totals have no intervals)"), std::string::npos);
   rules.of = "sensor";
-  EXPECT_NE(said("series").find("sensors beside facades"), std::string::npos);
+  EXPECT_NE(said("series").find("--facade house_1/south_1 with --of sensor"), std::string::npos);
   rules.parts = {};
   EXPECT_NE(said("series").find("the study has no sensors"), std::string::npos);
   rules.of = "facade";

@@ -372,6 +372,15 @@ TEST(Init, PlanDataOfOtherColumnsIsTold) {
   EXPECT_NE(said.find("sunload init --height"), std::string::npos) << said;
   const auto [study, text] = begun(folder, {.model = plan, .height = "roof elevation"});
   EXPECT_EQ(study.scene.files.front().footprints.height, "roof elevation") << text;
+  std::filesystem::remove(folder / "study.yaml");
+  const auto by_storeys = begun(folder, {.model = plan, .storeys = "roof elevation"}).first;
+  EXPECT_EQ(by_storeys.scene.files.front().footprints.storeys, "roof elevation");
+  std::filesystem::remove(folder / "study.yaml");
+  const std::string other = folder.write("box.obj", box);
+  EXPECT_NE(refusal_of([&] {
+              begun(folder, {.model = other, .height = "h"});
+            }).find("name columns of plan data"),
+            std::string::npos);
 }
 
 /// Kashgar keeps the time of Peking, whose table of zones has no place near it.

@@ -252,6 +252,10 @@ TEST(SceneGltf, RotationsAreOfUnitLength) {
   const Vec3 corner_of = corner(turned, 0, 0, 2);
   EXPECT_NEAR(corner_of.x, -1, 1e-12);
   EXPECT_NEAR(corner_of.z, 1, 1e-12);
+  // A third about the diagonal, in bytes: (1, 1, 0) goes to (0, 1, 1).
+  const auto bytes = read_text("q.gltf", with("0.5039, 0.5039, 0.5039, 0.5039"));
+  const Vec3 of_bytes = corner(bytes, 0, 0, 2);
+  EXPECT_LT(norm(of_bytes - Vec3{0, -1, 1}), 1e-12) << of_bytes.x << " " << of_bytes.y;
   const auto said = refusal("q.gltf", with("0, 0, 1, 1"));
   EXPECT_NE(said.find("broken 'rotation' (a rotation is a quaternion of length 1"),
             std::string::npos)
