@@ -400,8 +400,11 @@ void StudyWeather::refuse_uncovered(const SunInterval& when) const {
       study_.period.where,
       fmt::format("the weather does not cover {} to {}", iso_utc(when.begin), iso_utc(when.end)),
       why,
-      years_ == WeatherYears::actual ? "choose dates that have rows, or year_of: weather"
-                                     : "choose other dates, or year_of: weather");
+      years_ == WeatherYears::actual
+          ? std::string("choose dates that have rows, or year_of: weather")
+      : is_leap_day ? "choose other dates; of a whole year write year_of: weather, with as_year " +
+                          std::to_string(year)
+                    : std::string("choose other dates, or year_of: weather"));
 }
 
 std::optional<WeatherPlace> weather_place(const Study& study) {
