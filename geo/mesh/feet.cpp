@@ -294,6 +294,18 @@ class FootFinder {
       if (count == 1) foot.rims.push_back({at(ends[0]), at(ends[1])});
   }
 
+  /// Whether what is lower than a storey lies above most of what another foot encloses, as a roof
+  /// on walls without a ceiling.
+  bool is_roof_of(std::size_t upper, std::size_t lower) const {
+    const Box& body = bodies_.bodies[static_cast<std::size_t>(feet_[upper].body)].box;
+    const Box &a = feet_[upper].box, &b = feet_[lower].box;
+    if (body.high.z - body.low.z >= lowest_house_m || a.low.z <= b.high.z) return false;
+    const double x = std::min(a.high.x, b.high.x) - std::max(a.low.x, b.low.x);
+    const double y = std::min(a.high.y, b.high.y) - std::max(a.low.y, b.low.y);
+    constexpr double most = 0.5;
+    return x > 0 && y > 0 && x * y > most * (b.high.x - b.low.x) * (b.high.y - b.low.y);
+  }
+
   /// Of feet that no land can join those with most area against them, one after the other.
   void find_hovering() {
     std::vector<Box> boxes;
@@ -312,8 +324,11 @@ class FootFinder {
       });
     }
     std::vector<std::size_t> contested;
-    for (std::size_t f = 0; f < feet_.size(); ++f)
+    for (std::size_t f = 0; f < feet_.size(); ++f) {
+      if (std::ranges::any_of(against[f], [&](std::size_t g) { return is_roof_of(f, g); }))
+        feet_[f].stance = Stance::hovering;
       if (!against[f].empty()) contested.push_back(f);
+    }
     while (true) {
       std::size_t worst = feet_.size();
       double most = 0;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -42,7 +43,7 @@ Upward upward_triangles(const Mesh& mesh) {
 /// What carries a foot in part.
 struct CarryingBodies {
   std::vector<std::int32_t> bodies;  ///< in order
-  double low = infinity;             ///< the lowest point of them
+  double low = infinity;             ///< the lowest point of them, and of what carries them
 
   bool have(std::int32_t body) const { return std::ranges::binary_search(bodies, body); }
   bool share_one_with(const CarryingBodies& other) const {
@@ -60,6 +61,7 @@ class FootSupports {
     carriers_.resize(feet_.size());
     find_carriers_at_edges();
     find_carriers_below_floors();
+    find_lows();
     for (const std::size_t f : resting()) feet_[f].stance = Stance::body;
   }
 
@@ -105,18 +107,31 @@ class FootSupports {
     }
   }
 
-  /// A step up that counts.
   bool may_carry(std::int32_t lower, const Foot& foot) const {
-    constexpr double least_rise_m = 0.5;
     return lower >= 0 && lower != foot.body &&
-           foot.box.low.z - body(lower).box.low.z > least_rise_m;
+           body(lower).box.low.z < foot.box.low.z - foot_tolerance(infinity);
   }
 
   void add_carrier(std::size_t f, std::int32_t lower) {
     CarryingBodies& carriers = carriers_[f];
     if (carriers.have(lower)) return;
     carriers.bodies.insert(std::ranges::upper_bound(carriers.bodies, lower), lower);
-    carriers.low = std::min(carriers.low, body(lower).box.low.z);
+  }
+
+  /// Down to what carries all: a deck may be thin, and stand on columns.
+  void find_lows() {
+    std::vector<std::size_t> lowest_first(feet_.size());
+    std::iota(lowest_first.begin(), lowest_first.end(), std::size_t{0});
+    std::ranges::stable_sort(lowest_first, {},
+                             [&](std::size_t f) { return body(feet_[f].body).box.low.z; });
+    std::vector<double> low(bodies_.bodies.size());
+    for (std::size_t b = 0; b < low.size(); ++b) low[b] = bodies_.bodies[b].box.low.z;
+    for (const std::size_t f : lowest_first) {
+      for (const auto lower : carriers_[f].bodies)
+        carriers_[f].low = std::min(carriers_[f].low, low[static_cast<std::size_t>(lower)]);
+      double& own = low[static_cast<std::size_t>(feet_[f].body)];
+      own = std::min(own, carriers_[f].low);
+    }
   }
 
   void find_carriers_at_edges() {
@@ -174,9 +189,12 @@ class FootSupports {
     const BoxTree tree(std::move(boxes));
     std::vector<std::size_t> found;
     for (std::size_t f = 0; f < feet_.size(); ++f) {
-      if (feet_[f].stance != Stance::ground || carriers_[f].bodies.empty()) continue;
-      const auto is_above = is_above_land(feet_[f]);
-      if (is_above ? *is_above : is_above_feet_about(f, tree)) found.push_back(f);
+      constexpr double least_rise_m = 0.5;
+      const Foot& foot = feet_[f];
+      if (foot.stance != Stance::ground || foot.box.low.z - carriers_[f].low < least_rise_m)
+        continue;
+      const auto is_above = is_above_land(foot);
+      if (is_above ? *is_above : is_above_bodies_about(f, tree)) found.push_back(f);
     }
     return found;
   }
@@ -197,7 +215,8 @@ class FootSupports {
     return above + on > 0 ? std::optional(above > on) : std::nullopt;
   }
 
-  bool is_above_feet_about(std::size_t f, const BoxTree& tree) const {
+  /// By where most of the bodies about stand; by statics where they are divided, or none is there.
+  bool is_above_bodies_about(std::size_t f, const BoxTree& tree) const {
     const Foot& foot = feet_[f];
     double nearer_to_foot = 0, nearer_to_carriers = 0;
     tree.visit_meeting(upright(widened(foot.box, foot_reach_m)), [&](std::size_t g) {
@@ -209,7 +228,40 @@ class FootSupports {
       const bool is_nearer = std::abs(z - foot.box.low.z) < std::abs(z - carriers_[f].low);
       (is_nearer ? nearer_to_foot : nearer_to_carriers) += other.plan_m2;
     });
-    return nearer_to_foot <= nearer_to_carriers;
+    if (nearer_to_foot != nearer_to_carriers) return nearer_to_foot < nearer_to_carriers;
+    return can_stand(f) && !has_cellar(f);
+  }
+
+  /// Part of the foot's box that the carriers lie below.
+  Box contact(std::size_t f) const {
+    Box all;
+    for (const auto lower : carriers_[f].bodies) {
+      const Box &of = body(lower).box, &foot = feet_[f].box;
+      include(all, {std::max(of.low.x, foot.low.x), std::max(of.low.y, foot.low.y), 0});
+      include(all, {std::min(of.high.x, foot.high.x), std::min(of.high.y, foot.high.y), 0});
+    }
+    return all;
+  }
+
+  /// Its middle lies above its carriers, or not far off: it would not fall.
+  bool can_stand(std::size_t f) const {
+    constexpr double built_in = 0.15;  // of its size: walls hold it
+    const Box& foot = feet_[f].box;
+    const Vec3 middle = (foot.low + foot.high) / 2, size = foot.high - foot.low;
+    const Box by = contact(f);
+    return middle.x >= by.low.x - built_in * size.x && middle.x <= by.high.x + built_in * size.x &&
+           middle.y >= by.low.y - built_in * size.y && middle.y <= by.high.y + built_in * size.y;
+  }
+
+  /// All that carries it lies well within its outline, and is more than a core.
+  bool has_cellar(std::size_t f) const {
+    constexpr double least_share = 0.2;
+    const Box by = contact(f), &foot = feet_[f].box;
+    const bool is_within = by.low.x > foot.low.x + inside_m && by.high.x < foot.high.x - inside_m &&
+                           by.low.y > foot.low.y + inside_m && by.high.y < foot.high.y - inside_m;
+    const Vec3 size = by.high - by.low, whole = foot.high - foot.low;
+    return is_within && carriers_[f].bodies.size() == 1 &&
+           size.x * size.y > least_share * whole.x * whole.y;
   }
 
   const Mesh& mesh_;

@@ -13,8 +13,9 @@ namespace sunload {
 /// rest on a lower one with less of them (a slab on a core, a house that juts out over its
 /// neighbour, a roof on columns) where land would have to climb to the rest: where the model has
 /// land, by that; else by the bodies within `foot_reach_m`, but for those that carry it or rest on
-/// the same body: of their area in plan no more stands nearer to its height than to that of what
-/// carries it.
+/// the same body, of which more area stands nearer to the level of what carries it than to its own.
+/// Where these are no help it rests where it would not fall and what carries it looks like no
+/// cellar.
 ///
 /// A body rests on another whose roof touches a tenth of its edges, half a metre behind its walls
 /// (outlines overlap by less), or lies wholly below its floor. Feet must have their floors.

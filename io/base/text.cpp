@@ -60,7 +60,7 @@ std::string capitalized(std::string words) {
 }
 
 std::string with_units(const std::string& name, std::string units) {
-  if (units == "1") return name;
+  if (units == "1" || units.empty()) return name;
   for (char& c : units)
     c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   std::erase(units, '-');

@@ -44,7 +44,7 @@ std::vector<Sensor> place_sensors(const SensorsStudy& study, const Mesh& mesh, d
   for (const auto& point : study.points) {
     const Vec3 at = point.position - mesh.origin;
     const Vec3 normal = normal_of(point, north_deg);
-    sensors.push_back({at, normalized(normal), key_of_place(point.position, normal)});
+    sensors.push_back({at, normalized(normal), key_of_place(point.position, normalized(normal))});
     far.look_at(at);
   }
   clear_of_surfaces(mesh, sensors);
@@ -425,6 +425,8 @@ void give_materials(const Study& study, BuiltScene& built) {
       assign_materials(study, {built.crs, built.site.north_deg}, built.scene, built.warnings);
   take_dark_backs(built, built.scene.mesh);
   warn_of_reflectances(study, built);
+  if (std::string open = open_panes_note(built.scene); !open.empty())
+    built.notes.push_back(std::move(open));
   if (const auto uncut = uncut_warning(study.scene, built); !uncut.empty())
     built.warnings.push_back(uncut);
   built.scene.parallel_sources = read_parallel_sources(study, built.scene.mesh.origin, built);

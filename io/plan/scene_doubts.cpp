@@ -363,6 +363,26 @@ std::string sensors_in_bodies_warning(const SensorsStudy& study, const Scene& sc
                  "no light comes there", "points before walls and above roofs receive light");
 }
 
+std::string open_panes_note(const Scene& scene) {
+  constexpr double least_transmitted = 0.05;
+  double area_m2 = 0;
+  std::string name;
+  for (std::size_t t = 0; t < scene.mesh.triangle_count(); ++t) {
+    const Material& material = scene.material_of(t);
+    if (scene.mesh.triangle_sides[t] != Sides::two || !scene.mesh.bears_patches(t) ||
+        smooth_shares(material, 1).transmitted < least_transmitted)
+      continue;
+    area_m2 += scene.mesh.area_m2(t);
+    name = material.name;
+  }
+  if (area_m2 == 0) return {};
+  return fmt::format(
+      "panes ({}) of {:.4g} m2 are lit from both sides: what passes leaves the outdoor scene, as "
+      "into "
+      "a room, and it is dark behind them; a canopy has transmittance and mirror, sides: two",
+      name, area_m2);
+}
+
 void warn_of_reflectances(const Study& study, BuiltScene& built) {
   constexpr double brightest = 0.8;  // fresh snow
   const Scene& scene = built.scene;

@@ -31,6 +31,10 @@ void tell_of_hidden(const Study& study, BuiltScene& built);
 /// opaque faces. To be called after materials are given; empty where there are none.
 std::string sensors_in_bodies_warning(const SensorsStudy& study, const Scene& scene);
 
+/// Of panes that are lit from both sides, as canopies of glass are; empty where there are none. To
+/// be called after materials are given.
+std::string open_panes_note(const Scene& scene);
+
 /// Warns of colours for display that became reflectances, and of walls that reflect more than any
 /// real ones do. To be called after materials are given.
 void warn_of_reflectances(const Study& study, BuiltScene& built);

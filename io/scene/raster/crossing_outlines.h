@@ -15,7 +15,7 @@ struct DestroyGeometry {
 };
 using GdalGeometry = std::unique_ptr<void, DestroyGeometry>;
 
-/// One of the polygon's rings does.
+/// One of the polygon's rings does, or crosses another, or shares a side with one.
 bool crosses_itself(OGRGeometryH polygon);
 /// The same area in polygons that do not; null where GDAL cannot.
 GdalGeometry cut_at_crossings(OGRGeometryH polygon);

@@ -275,6 +275,49 @@ TEST(Ground, AHouseOverAGarageInTheSlopeStandsOnTheLand) {
   }
 }
 
+/// A deck may be thinner than any step: what carries it is asked. A roof upon walls without a
+/// ceiling touches none, and buries nothing.
+TEST(Ground, DecksCarryAndRoofsHover) {
+  auto deck = ModelBuilder().city().object("house", "Building");
+  deck.box({0, 0, 3.2}, {12, 8, 9});
+  deck.object("deck", "Building").box({-6, -8, 3}, {14, 3, 3.2});
+  for (const double x : {-5.0, 13.0})
+    for (const double y : {-7.0, 2.0})
+      deck.object("column", "Building").box({x, y, 0}, {x + 0.4, y + 0.4, 3});
+  deck.object("neighbour", "Building").box({30, 0, 0}, {40, 10, 6});
+  const auto on_deck = deck.prepared(on_feet());
+  EXPECT_EQ(on_deck.report.ground->on_others, 2u);
+  EXPECT_EQ(on_deck.report.ground->high_m, 0);
+
+  auto open = ModelBuilder().city().object("walls", "Building");
+  open.ring({{0, 0, 0}, {12, 0, 0}, {12, 0, 6}, {0, 0, 6}});
+  open.ring({{12, 0, 0}, {12, 8, 0}, {12, 8, 6}, {12, 0, 6}});
+  open.ring({{12, 8, 0}, {0, 8, 0}, {0, 8, 6}, {12, 8, 6}});
+  open.ring({{0, 8, 0}, {0, 0, 0}, {0, 0, 6}, {0, 8, 6}});
+  open.ring({{0, 0, 0}, {0, 8, 0}, {12, 8, 0}, {12, 0, 0}});
+  open.object("roof", "Building").box({-1, -1, 6}, {13, 9, 6.3});
+  const auto roofed = open.prepared(on_feet());
+  EXPECT_EQ(roofed.report.ground->high_m, 0);
+}
+
+/// Nothing about tells where the land is: a body stands where it would not fall, and not on what
+/// looks like a cellar.
+TEST(Ground, ALoneHouseStandsOnTheLandAboveItsCellar) {
+  const auto highest = [](Vec3 low, Vec3 high) {
+    auto builder = ModelBuilder().city().object("house", "Building");
+    builder.box({0, 0, 0}, {12, 10, 9});
+    builder.object("lower", "Building").box(low, high);
+    const auto p = builder.prepared(on_feet());
+    double z = -infinity;
+    for (const double ground : ground_at(p.mesh, 6, -8)) z = std::max(z, ground);
+    return z;
+  };
+  EXPECT_EQ(highest({3, 2, -3}, {9, 8, 0}), 0) << "a cellar";
+  EXPECT_EQ(highest({1, -4, -3}, {5, 3, 0}), 0) << "a garage dug in before it";
+  EXPECT_EQ(highest({5, 4, -3}, {7, 6, 0}), -3) << "a core";
+  EXPECT_EQ(highest({0, 0, -3}, {6, 10, 0}), -3) << "a house that it juts out over";
+}
+
 /// One neighbour is enough to tell that, and so is a row of houses with garages of their own; a
 /// roof that reaches under a house by the inexactness of outlines carries nothing.
 TEST(Ground, HousesWithGaragesInTheSlopeTellOfTheLandTogether) {

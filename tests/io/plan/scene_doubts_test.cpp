@@ -109,6 +109,24 @@ TEST_F(Doubts, SeeSensorsWithinBodies) {
                       "material: net}]"));
 }
 
+TEST_F(Doubts, NotePanesThatAreLitFromBothSides) {
+  write_town("town.obj", false);
+  folder_.write("canopy.obj", "o canopy\nv -20 0 3\nv -14 0 3\nv -14 4 3\nv -20 4 3\nf 1 2 3 4\n");
+  const auto notes = [&](const std::string& glass) {
+    std::string all;
+    for (const auto& note :
+         build_scene(study("files: [town.obj, canopy.obj], materials: {glass: {refractive_index: "
+                           "1.526" +
+                           glass + "}}, assign: [{object: canopy, material: glass}]"))
+             .notes)
+      all += note + "\n";
+    return all;
+  };
+  const auto open = notes(", sides: two");
+  EXPECT_NE(open.find("panes (glass) of 24 m2 are lit from both sides"), std::string::npos) << open;
+  EXPECT_EQ(notes("").find("lit from both sides"), std::string::npos);
+}
+
 /// Panels look where they are told, whatever north of the scene is.
 TEST_F(Doubts, SensorsMayBeTilted) {
   write_town("town.obj", false);

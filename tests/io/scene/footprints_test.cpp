@@ -277,5 +277,20 @@ TEST(Footprints, OutlinesThatCrossThemselvesAreCut) {
   EXPECT_FALSE(has_note(plain, "cut there"));
 }
 
+/// A courtyard that is open to the street shares a side with the outline; holes may cross it, or
+/// each other. Walls stand about what is left, and nowhere else.
+TEST(Footprints, HolesAreTakenOutWhereverTheyReach) {
+  const auto walls = [](const std::string& holes) {
+    const auto model = read_text(
+        "plan.geojson", plan({feature(R"("height": 6)", "[" + square(0, 0, 20) + holes + "]")}));
+    return model.polygon_count() - 2;  // without roof and floor
+  };
+  const std::string open = ", [[10, 14], [20, 14], [20, 6], [10, 6], [10, 14]]";
+  EXPECT_EQ(walls(open), 8u);
+  EXPECT_EQ(walls(", [[10, 14], [26, 14], [26, 6], [10, 6], [10, 14]]"), 8u) << "beyond it";
+  EXPECT_EQ(walls(", " + square(4, 4, 4) + ", " + square(6, 6, 4)), 4u + 8u) << "two that cross";
+  EXPECT_EQ(walls(", " + square(30, 4, 4)), 4u) << "outside";
+}
+
 }  // namespace
 }  // namespace sunload
