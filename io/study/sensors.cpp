@@ -28,10 +28,10 @@ std::optional<SensorPoint> read_point(YamlMap& map) {
   const auto position = read_vector(map, "position_m"), normal = read_vector(map, "normal");
   const auto tilted = read_tilted(map);
   const bool is_tilted = map.has("tilt_deg") || map.has("azimuth_deg");
-  if (map.has("normal") == is_tilted && map.is_usable())
-    map.reading().problem(
-        map.where(), map.path("normal") + ": write normal, or tilt_deg and azimuth_deg",
-        is_tilted ? "they say the same" : "nothing says where the sensor looks", "");
+  if (!is_tilted) map.require("normal", "or tilt_deg and azimuth_deg: where the sensor looks");
+  if (is_tilted && map.has("normal"))
+    map.problem("normal", "stands beside tilt_deg or azimuth_deg", "they say the same",
+                "leave one of them out");
   if (normal && norm(*normal) < shortest_normal) {
     map.problem("normal", "has no length", "it tells where the sensor looks");
     return {};

@@ -151,7 +151,7 @@ TEST_F(Doubts, SensorsMayBeTilted) {
   refused("azimuth_deg: 30", "tilt_deg");
   refused("tilt_deg: 190, azimuth_deg: 0", "tilt_deg");
   refused("tilt_deg: 30, azimuth_deg: 0, normal: [0, 0, 1]", "they say the same");
-  refused("", "nothing says where the sensor looks");
+  refused("", "normal is missing");
 }
 
 TEST_F(Doubts, CompareNorthWithTheMap) {
