@@ -303,7 +303,7 @@ void tell_of_hidden(const Study& study, BuiltScene& built) {
     else if (depth_m <= 0)
       (built.placed.contains(name) ? placed_inside : inside).add(name);
   }
-  const char* const unseen = "no light reaches them, and they are in no result";
+  const char* const unseen = "no light comes there, and no result tells of it";
   if (buried.count() > 0)
     built.warnings.push_back(
         message(study.scene.where, buried.lie("below the land"), unseen,

@@ -307,7 +307,7 @@ TEST_F(SceneEdit, WhatItPutsInsideOfOthersIsWarnedOf) {
   const std::string inside = "1 object lies wholly inside others: ";
   const auto tree =
       warnings("{add: {tree: {position_m: [5, 5, 0], height_m: 4, crown_m: 2, trunk_m: 1}}}");
-  EXPECT_TRUE(names(tree, inside + "tree (no light reaches them")) << tree;
+  EXPECT_TRUE(names(tree, inside + "tree (no light comes there")) << tree;
   const auto moved = warnings(
       "{add: {name: kiosk, box: {position_m: [60, 5, 0], size_m: [3, 3, 3]}}}, "
       "{object: kiosk, move_m: [-35, 0, 0]}");
