@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "geo/mesh/mesh.h"
 #include "geo/time/time.h"
 #include "io/base/light_quantity.h"
 #include "io/base/standard_streams.h"
@@ -92,23 +94,40 @@ Direct direct_light(const ResultReader& result) {
   return direct;
 }
 
-class Facades {
+/// Roof patches of one object in one plane are one surface.
+struct RoofPlane {
+  Vec3 normal, through;
+  std::int32_t surface;
+
+  bool holds(Vec3 of_normal, Vec3 at) const {
+    constexpr double least_cosine = 0.9998, apart_m = 0.05;  // 1 degree
+    return dot(normal, of_normal) >= least_cosine && std::abs(dot(at - through, normal)) <= apart_m;
+  }
+};
+
+/// Facades in the order of the file, then roofs by their planes: "house_3/roof_1".
+class ShadedSurfaces {
  public:
-  explicit Facades(const ResultReader& result)
+  explicit ShadedSurfaces(const ResultReader& result)
       : patches_(result),
-        facade_(result.integers("patch_facade")),
-        names_(result.strings("facade_name")) {
-    if (names_.empty()) throw InputError({result.path()}, "no facades", "the scene has no walls");
+        surface_(result.integers("patch_facade")),
+        names_(result.strings("facade_name")),
+        facade_count_(names_.size()) {
+    add_roofs(result);
+    if (names_.empty())
+      throw InputError({result.path()}, "no facades and roofs", "the scene has no walls");
   }
   const std::vector<std::string>& names() const { return names_; }
+  /// From which of them on they are roofs.
+  std::size_t facade_count() const { return facade_count_; }
 
   /// Direct light received by what the sun would give without any shade: 1 is unshaded. 0 for a
-  /// facade that looks away. The rim of the sun's disk can still meet it, which is cut off.
+  /// surface that looks away. The rim of the sun's disk can still meet it, which is cut off.
   std::vector<double> sunlit(const std::vector<double>& direct, double normal, Vec3 sun) const {
     std::vector<double> received(names_.size(), 0), unshaded(names_.size(), 0);
-    for (std::size_t i = 0; i < facade_.size(); ++i) {
-      if (facade_[i] < 0) continue;
-      const auto f = static_cast<std::size_t>(facade_[i]);
+    for (std::size_t i = 0; i < surface_.size(); ++i) {
+      if (surface_[i] < 0) continue;
+      const auto f = static_cast<std::size_t>(surface_[i]);
       received[f] += patches_.area[i] * direct[i];
       unshaded[f] += patches_.area[i] * normal * std::max(0.0, dot(patches_.normal[i], sun));
     }
@@ -118,10 +137,43 @@ class Facades {
   }
 
  private:
+  void add_roofs(const ResultReader& result) {
+    const auto kind = result.integers("patch_surface"), side = result.integers("patch_side");
+    const auto centroid = result.doubles("patch_centroid");
+    std::map<std::int32_t, std::vector<RoofPlane>> of_object;
+    for (std::size_t i = 0; i < surface_.size(); ++i) {
+      if (static_cast<Surface>(kind[i]) != Surface::roof || side[i] != 0 || surface_[i] >= 0)
+        continue;
+      const Vec3 at{centroid[3 * i], centroid[3 * i + 1], centroid[3 * i + 2]};
+      auto& planes = of_object[patches_.object[i]];
+      auto plane = std::ranges::find_if(
+          planes, [&](const RoofPlane& of) { return of.holds(patches_.normal[i], at); });
+      if (plane == planes.end()) {
+        const auto object = static_cast<std::size_t>(patches_.object[i]);
+        plane = planes.insert(planes.end(),
+                              {patches_.normal[i], at, static_cast<std::int32_t>(names_.size())});
+        names_.push_back(
+            fmt::format("{}/roof_{}", patches_.object_names.at(object), planes.size()));
+      }
+      surface_[i] = plane->surface;
+    }
+  }
+
   ResultPatches patches_;
-  std::vector<std::int32_t> facade_;
+  std::vector<std::int32_t> surface_;  ///< per patch, into `names_`; -1: none
   std::vector<std::string> names_;
+  std::size_t facade_count_;
 };
+
+/// Those that are named, of facades alone; else all.
+std::vector<std::size_t> chosen_surfaces(const ResultReader& result, const ExportRules& rules,
+                                         const ShadedSurfaces& surfaces) {
+  auto chosen = chosen_facades(result, rules.parts);
+  if (rules.parts.facades.empty())
+    for (std::size_t f = surfaces.facade_count(); f < surfaces.names().size(); ++f)
+      chosen.push_back(f);
+  return chosen;
+}
 
 }  // namespace
 
@@ -131,15 +183,15 @@ void export_energyplus(const ResultReader& result, const ExportRules& rules,
     throw InputError({}, "--quantity and --time with --to energyplus",
                      "the file holds the sunlit fractions of all intervals", "leave them out");
   if (!rules.parts.objects.empty() || !rules.parts.sensors.empty())
-    throw InputError({}, "--object and --sensor with --to energyplus", "the file holds facades",
-                     "write --facade");
+    throw InputError({}, "--object and --sensor with --to energyplus",
+                     "the file holds facades and roofs", "write --facade");
   const ShadingYear year = expected_year(result);
   const Direct direct = direct_light(result);
-  const Facades facades(result);
+  const ShadedSurfaces surfaces(result);
   auto& out = target.stream;
   out << "Surface Name";
-  const auto chosen = chosen_facades(result, rules.parts);
-  for (const auto f : chosen) out << "," << csv_text(facades.names()[f]);
+  const auto chosen = chosen_surfaces(result, rules, surfaces);
+  for (const auto f : chosen) out << "," << csv_text(surfaces.names()[f]);
   out << "\n";
   std::size_t unknown = 0;
   for (std::size_t k = 0; k < year.begin.size(); ++k) {
@@ -152,7 +204,7 @@ void export_energyplus(const ResultReader& result, const ExportRules& rules,
           "there is no value at the interval that ends " + end_text(year.begin[k], year.step_s),
           "finish the run");
     out << end_text(year.begin[k], year.step_s);
-    const auto sunlit = facades.sunlit(row, direct.normal[k], sun);
+    const auto sunlit = surfaces.sunlit(row, direct.normal[k], sun);
     for (const auto f : chosen) out << fmt::format(",{:.6g}", sunlit[f]);
     out << "\n";
   }

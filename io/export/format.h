@@ -80,9 +80,9 @@ void export_cityjson(const ResultReader&, const ExportRules&, const ExportTarget
 /// GeoPackage Encoding Standard 1.3, written by GDAL.
 void export_geopackage(const ResultReader&, const ExportRules&, const ExportTarget&);
 
-/// Sunlit fraction of every facade at every step of a year, CSV: direct light by what an unshaded
-/// facade would get. The layout is what EnergyPlus writes ("eplusshading.csv") and reads
-/// (Schedule:File:Shading): its sources ScheduleManager.cc and their tests, version 25.
+/// Sunlit fraction of every facade and roof plane at every step of a year, CSV: direct light by
+/// what an unshaded facade would get. The layout is what EnergyPlus writes ("eplusshading.csv") and
+/// reads (Schedule:File:Shading): its sources ScheduleManager.cc and their tests, version 25.
 void export_energyplus(const ResultReader&, const ExportRules&, const ExportTarget&);
 
 }  // namespace sunload

@@ -544,6 +544,42 @@ def test_energyplus(exports):
     assert ran.returncode == WRONG_INPUT and "365" in ran.stderr and not ran.stdout, ran.stderr
 
 
+YEAR = """period: {start: 2025-01-01T00:00, end: 2026-01-01T00:00, step_min: 60}
+mesh: {max_edge_m: 8, oracle: none}
+solver: {lines_per_patch: 8, direct_samples: 8, realizations: 2, bounces: 1}
+output: {series: [direct], significant_bits: 23}
+"""
+
+
+def test_sunlit_fractions(exports):
+    """Of every facade and roof plane and hour of a year: direct light by what nothing in its way would leave."""
+    write_study(exports.folder, 8, 4)
+    path = os.path.join(exports.folder, "square.yaml")
+    with open(path, encoding="utf-8") as file:
+        kept = [line for line in file if not line.startswith(("period", "mesh", "solver", "site"))]
+    text = "".join(kept).replace("name: square", "name: shaded")
+    site = "site: {latitude_deg: 49.7475, longitude_deg: 13.3776, timezone: \"+01:00\"}\n"
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text + site + YEAR)
+    ran = exports.run("run", "square.yaml", "--progress", "none")
+    assert ran.returncode == 0, ran.stderr
+    ran = exports.run("export", "results/shaded/baseline.h5", "--to", "energyplus")
+    assert ran.returncode == 0, ran.stderr
+    head, *rows = list(csv.reader(io.StringIO(ran.stdout)))
+    assert head[0] == "Surface Name" and "house/roof_1" in head and "house/south_1" in head, head
+    assert len(rows) == 8760 and rows[0][0] == "01/01 01:00" and rows[-1][0] == "12/31 24:00", (rows[0], rows[-1])
+    with h5py.File(os.path.join(exports.folder, "results/shaded/baseline.h5")) as result:
+        area, normal, kind, facade = (result[name][()] for name in ("patch_area", "patch_normal", "patch_surface", "patch_facade"))
+        names, direct = list(result["facade_name"].asstr()), result["irradiance_direct"][()]
+        dni, sun = result["dni"][()], result["sun_direction"][()]
+    for name, chosen in (("house/roof_1", kind == 2), ("house/south_1", facade == names.index("house/south_1"))):
+        free = dni[:, None] * np.maximum(0, sun @ normal[chosen].T) @ area[chosen]
+        wanted = np.where(free > 0, np.minimum(1, direct[:, chosen] @ area[chosen] / np.maximum(free, 1e-300)), 0)
+        found = np.array([float(row[head.index(name)]) for row in rows])
+        assert np.allclose(found, wanted, atol=2e-6), (name, np.abs(found - wanted).max())
+        assert found.max() > 0.99 and (free > 0).sum() > 1000, name
+
+
 def refuses(check, *arguments):
     """The check must fail: it would see a fault."""
     try:
@@ -564,12 +600,12 @@ def test_refusals(exports):
 
 def main():
     try:
-        import h5py
+        import h5py as of_hdf5
         import numpy
     except ImportError:
         skip("python3-h5py is not installed")
-    global np
-    np = numpy
+    global h5py, np
+    h5py, np = of_hdf5, numpy
     with tempfile.TemporaryDirectory(prefix="sunload-export-") as folder:
         write_study(folder, 2, 4)
         exports = Exports(os.path.abspath(sys.argv[1]), folder)
@@ -590,6 +626,7 @@ def main():
         print("test_geopackage passed")
         test_energyplus(exports)
         test_refusals(exports)
+        test_sunlit_fractions(exports)
         left = [name for name in os.listdir(folder) if ".part-" in name]
         assert not left, left
 
