@@ -56,6 +56,7 @@ SceneFileStudy read_edit_file(YamlMap& map, const std::string& folder) {
   file.where = map.where();
   map.require("file");
   file.path = read_path(map, "file", folder);
+  file.up = map.choice<char>("up", {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}}, file.up);
   file.unit_m = map.number("unit_m", units_m);
   file.position = read_vector(map, "position_m");
   file.turn_deg = map.number("turn_deg", turns_deg, file.turn_deg);

@@ -295,6 +295,22 @@ TEST_F(SceneEdit, RefusesWhatCannotBeRaised) {
   EXPECT_NE(said.find("scene.edit[1]: plate has no roof"), said.npos) << said;
 }
 
+/// Of a file with y up, as many modellers write, in a scene with z up.
+TEST_F(SceneEdit, FilesSayWhichAxisPointsUp) {
+  folder_.write("mast.obj",
+                "o mast\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 20 0\nv 1 20 0\nv 1 20 1\n"
+                "v 0 20 1\nf 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+  for (const char* step :
+       {"{add: {file: {file: mast.obj, up: y, position_m: [60, 5, 0]}}}",
+        "{object: shed, replace: {file: mast.obj, up: y, position_m: [60, 5, 0]}}"}) {
+    const PolygonModel m = model(step);
+    const auto extents = extents_of(m);
+    EXPECT_EQ(m.object_names.back(), "mast");
+    EXPECT_NEAR(extents.back().box.high.z, 20, 1e-9) << step;
+    EXPECT_NEAR(extents.back().box.high.y, 5, 1e-9) << step;
+  }
+}
+
 TEST_F(SceneEdit, WhatItPutsInsideOfOthersIsWarnedOf) {
   const auto warnings = [&](const std::string& steps) {
     std::string all;
