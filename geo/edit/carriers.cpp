@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geo/base/units.h"
+#include "geo/mesh/box_tree.h"
 #include "geo/mesh/plan_lines.h"
 #include "geo/mesh/slope.h"
 
@@ -120,10 +121,7 @@ double share_on(const BuildingPart& upper, const BuildingPart& lower, double foo
 /// Whether in plan one is about as large as what it stands on.
 bool covers(const Box& upper, const Box& lower) {
   constexpr double nearly_all = 0.9;
-  const Vec3 over{std::min(upper.high.x, lower.high.x) - std::max(upper.low.x, lower.low.x),
-                  std::min(upper.high.y, lower.high.y) - std::max(upper.low.y, lower.low.y), 0};
-  const Vec3 whole = lower.high - lower.low;
-  return over.x > 0 && over.y > 0 && over.x * over.y > nearly_all * whole.x * whole.y;
+  return shared_plan_m2(upper, lower) > nearly_all * shared_plan_m2(lower, lower);
 }
 
 /// Of the lower parts that carry one, all together more than half of its edges, the one with most.

@@ -35,6 +35,12 @@ bool meet(const Box& a, const Box& b) {
          a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
 
+double shared_plan_m2(const Box& a, const Box& b) {
+  const double x = std::min(a.high.x, b.high.x) - std::max(a.low.x, b.low.x);
+  const double y = std::min(a.high.y, b.high.y) - std::max(a.low.y, b.low.y);
+  return std::max(0.0, x) * std::max(0.0, y);
+}
+
 Box upright(Box box) {
   box.low.z = -any_height, box.high.z = any_height;
   return box;

@@ -18,6 +18,8 @@ Box box_around(std::initializer_list<Vec3> points);
 void include(Box& box, Vec3 point);
 Box widened(Box box, double by);
 bool meet(const Box& a, const Box& b);
+/// Area in plan that both cover [m²]; 0 where they lie apart.
+double shared_plan_m2(const Box& a, const Box& b);
 inline Vec3 centre_of(const Box& box) { return (box.low + box.high) * 0.5; }
 inline Vec3 half_of(const Box& box) { return (box.high - box.low) * 0.5; }
 /// Square of the distance between them; 0 within the box.

@@ -300,10 +300,8 @@ class FootFinder {
     const Box& body = bodies_.bodies[static_cast<std::size_t>(feet_[upper].body)].box;
     const Box &a = feet_[upper].box, &b = feet_[lower].box;
     if (body.high.z - body.low.z >= lowest_house_m || a.low.z <= b.high.z) return false;
-    const double x = std::min(a.high.x, b.high.x) - std::max(a.low.x, b.low.x);
-    const double y = std::min(a.high.y, b.high.y) - std::max(a.low.y, b.low.y);
     constexpr double most = 0.5;
-    return x > 0 && y > 0 && x * y > most * (b.high.x - b.low.x) * (b.high.y - b.low.y);
+    return shared_plan_m2(a, b) > most * shared_plan_m2(b, b);
   }
 
   /// Of feet that no land can join those with most area against them, one after the other.

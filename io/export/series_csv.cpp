@@ -169,10 +169,14 @@ std::vector<std::string> series_of_sensors(const ResultReader& result) {
   return names;
 }
 
+std::string dataset_of(const std::string& quantity, bool of_sensors) {
+  return (of_sensors ? std::string(sensor_prefix) : "") + quantity;
+}
+
 [[noreturn]] void refuse_quantity(const ResultReader& result, const std::string& quantity,
                                   bool of_sensors, const std::vector<std::string>& known) {
   const std::string what = of_sensors ? "sensors" : "groups of patches";
-  const bool is_there = result.has((of_sensors ? std::string(sensor_prefix) : "") + quantity);
+  const bool is_there = result.has(dataset_of(quantity, of_sensors));
   const std::string why =
       !of_sensors && quantity.ends_with("_se")       ? "a mean of standard errors is none of a mean"
       : of_sensors && !result.has("sensor_position") ? "the study has no sensors"
@@ -194,7 +198,7 @@ std::optional<std::string> wanted_series(const ResultReader& result, const Expor
       is_of_all ? dataset_name("irradiance", result.quantity()) : rules.quantity;
   const auto known = of_sensors ? series_of_sensors(result) : series_of_groups(result);
   if (std::find(known.begin(), known.end(), quantity) != known.end())
-    return (of_sensors ? std::string(sensor_prefix) : "") + quantity;
+    return dataset_of(quantity, of_sensors);
   if (is_of_all && !of_sensors) return {};
   refuse_quantity(result, quantity, of_sensors, known);
 }

@@ -43,8 +43,8 @@ std::vector<Sensor> place_sensors(const SensorsStudy& study, const Mesh& mesh, d
   FarPlaces far(mesh.origin, bounds);
   for (const auto& point : study.points) {
     const Vec3 at = point.position - mesh.origin;
-    const Vec3 normal = normal_of(point, north_deg);
-    sensors.push_back({at, normalized(normal), key_of_place(point.position, normalized(normal))});
+    const Vec3 normal = normalized(normal_of(point, north_deg));
+    sensors.push_back({at, normal, key_of_place(point.position, normal)});
     far.look_at(at);
   }
   clear_of_surfaces(mesh, sensors);

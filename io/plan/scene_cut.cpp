@@ -75,8 +75,7 @@ void leave_out_far_from(const std::vector<PlanArea>& areas, const Mesh& mesh,
 }
 
 std::vector<PlanArea> areas_of(const NamedSelection& selection, const SceneFrame& frame) {
-  return areas_in_scene(selection.of.polygon, frame.crs, "selections." + selection.name,
-                        selection.where);
+  return areas_in_scene(selection.of.polygon, frame.crs, subject_of(selection), selection.where);
 }
 
 /// Of the selection and of what it leaves out.

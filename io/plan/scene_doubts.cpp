@@ -378,8 +378,7 @@ std::string open_panes_note(const Scene& scene) {
   if (area_m2 == 0) return {};
   return fmt::format(
       "panes ({}) of {:.4g} m2 are lit from both sides: what passes leaves the outdoor scene, as "
-      "into "
-      "a room, and it is dark behind them; a canopy has transmittance and mirror, sides: two",
+      "into a room, and it is dark behind them; a canopy has transmittance and mirror, sides: two",
       name, area_m2);
 }
 

@@ -204,6 +204,8 @@ bool Selector::holds(const Sight& sight, const SceneObjects& all,
   return height >= (*wanted_.height_m)[0] && height < (*wanted_.height_m)[1];
 }
 
+std::string subject_of(const NamedSelection& selection) { return "selections." + selection.name; }
+
 std::string empty_selection_warning(const std::string& name) {
   return "selection '" + name +
          "' chooses no patch of this variant: nothing is told of it; sunload check tells what each "
@@ -216,7 +218,7 @@ namespace {
 template <class ChosenBy>
 ChosenParts less_excepted(const NamedSelection& selection, const SceneFrame& frame,
                           const ChosenBy& chosen_by) {
-  const Selector selector(selection.of, frame, "selections." + selection.name, selection.where);
+  const Selector selector(selection.of, frame, subject_of(selection), selection.where);
   ChosenParts chosen = chosen_by(selector);
   for (const NamedSelection& other : selection.except) {
     const ChosenParts left_out = less_excepted(other, frame, chosen_by);

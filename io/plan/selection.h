@@ -101,6 +101,8 @@ std::vector<PlanArea> areas_in_scene(const AreasStudy& study, const std::string&
 void refuse_far(Point2 place, const std::vector<ObjectExtent>& extents, const std::string& subject,
                 const Where& where);
 
+/// For messages: "selections.south".
+std::string subject_of(const NamedSelection& selection);
 /// What to warn of where a selection has no patches.
 std::string empty_selection_warning(const std::string& name);
 

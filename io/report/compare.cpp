@@ -151,7 +151,7 @@ double area_alone(const Side& s, const PatchGroup& group) {
 
 /// Group b of what the base has in common with the variant, whose group v it is.
 ComparisonRow matched_row(const Side& base, std::size_t b, const Side& variant, std::size_t v,
-                          Comparison::Errors errors, double least_percent) {
+                          const Comparison& comparison) {
   const auto& group = base.common.groups.groups()[b];
   ComparisonRow row;
   row.kind = group.kind;
@@ -161,13 +161,12 @@ ComparisonRow matched_row(const Side& base, std::size_t b, const Side& variant, 
   row.variant_kwh_m2 = variant.common.load[v];
   row.unmatched_area_m2 = area_alone(base, group) + area_alone(variant, group);
   row.mesh_error_kwh_m2 = std::hypot(base.common.mesh_error[b], variant.common.mesh_error[v]);
-  const bool has_errors =
-      errors == Comparison::Errors::paired || errors == Comparison::Errors::independent;
-  tell_difference(
-      row,
-      has_errors ? std::optional(TwoSamples{base.realizations[b], variant.realizations[v], errors})
-                 : std::nullopt,
-      least_percent);
+  tell_difference(row,
+                  comparison.has_errors()
+                      ? std::optional(TwoSamples{base.realizations[b], variant.realizations[v],
+                                                 comparison.errors})
+                      : std::nullopt,
+                  comparison.least_percent);
   return row;
 }
 
@@ -225,8 +224,7 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (const auto found = v.common.place.find({groups[g].kind, groups[g].name});
         found != v.common.place.end())
-      comparison.rows.push_back(
-          matched_row(b, g, v, found->second, comparison.errors, rules.least_percent));
+      comparison.rows.push_back(matched_row(b, g, v, found->second, comparison));
   for (std::size_t g = 0; g < b.alone.groups.groups().size(); ++g)
     comparison.rows.push_back(lonely_row(b, g, Present::base));
   for (std::size_t g = 0; g < v.alone.groups.groups().size(); ++g)
