@@ -30,10 +30,13 @@ FlatPolygon::Kept FlatPolygon::keep_before(const HalfSpace& plane) {
     any = any || above[k] > 0;
     all = all && above[k] > 0;
   }
-  if (all && any) return Kept::all;
+  if (!any) {
+    count_ = 0;
+    return Kept::none;
+  }
+  if (all) return Kept::all;
   const FlatPolygon before = *this;
   count_ = 0;
-  if (!any) return Kept::none;
   std::size_t p = before.count_ - 1;
   for (std::size_t q = 0; q < before.count_; p = q++) {
     if (count_ + 2 > most) {

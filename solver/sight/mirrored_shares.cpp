@@ -24,12 +24,17 @@ constexpr double least_seen = 1e-9;
 /// and mirrored suns for which there is memory at a time.
 constexpr std::size_t groups_together = 8, neighbours_per_task = 2, fewest_at_once = 16;
 
-/// Whether anything about a place may be in a box across the light.
-bool is_near(const ViewBox& box, const ViewFrame& frame, Vec3 centre, double radius_m) {
-  const ViewCorner at{dot(centre, frame.x), dot(centre, frame.y)};
+/// Planes of mirrors whose light may come near a place and what lies about it.
+void find_near(const LitMirrors& mirrors, Vec3 centre, double radius_m,
+               std::vector<const LitPlane*>& near) {
+  near.clear();
   ViewBox point;
-  point.include(at);
-  return !box.is_apart_from(point, radius_m, radius_m);
+  point.include({dot(centre, mirrors.frame().x), dot(centre, mirrors.frame().y)});
+  if (mirrors.box().is_apart_from(point, radius_m, radius_m)) return;
+  for (const LitPlane& plane : mirrors.planes())
+    if (plane.before().above(centre) > -radius_m &&
+        !plane.box().is_apart_from(point, radius_m, radius_m))
+      near.push_back(&plane);
 }
 
 }  // namespace
@@ -40,8 +45,9 @@ class MirroredShares::GroupWork {
  public:
   GroupWork(const MirroredShares& mirrored, Columns& out) : m_(mirrored), out_(out) {}
 
-  void tell(const LitShares::Group& group, const LitMirrors& mirrors, std::size_t k) {
-    const ViewFrame& frame = mirrors.frame();
+  /// `planes`: of the mirrors, those whose light may come near. Of sun k.
+  void tell(const LitShares::Group& group, const ViewFrame& frame,
+            std::span<const LitPlane* const> planes, std::size_t k) {
     const double cos_theta = dot(group.normal, frame.to_sun);
     if (cos_theta <= least_cosine) return;
     const Hierarchy& mesh = m_.shares().hierarchy();
@@ -52,12 +58,11 @@ class MirroredShares::GroupWork {
       corners[c] = mesh.vertices()[static_cast<std::size_t>(group.vertices[c])] + lift;
       box.include({dot(corners[c], frame.x), dot(corners[c], frame.y)});
     }
-    if (box.is_apart_from(mirrors.box(), 0, 0)) return;
     group_ = &group;
     frame_ = &frame;
     patches_.clear();
-    for (const LitPlane& plane : mirrors.planes())
-      if (!box.is_apart_from(plane.box(), 0, 0)) look_into(plane, corners);
+    for (const LitPlane* plane : planes)
+      if (!box.is_apart_from(plane->box(), 0, 0)) look_into(*plane, corners);
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       float& of_patch = out_[m_.shares().patches_of(group)[i] * block_width + k];
       const auto& [polygon, patch_box, area, light, is_told] = patches_[i];
@@ -219,13 +224,14 @@ Columns MirroredShares::of(std::span<const IntervalLight> block,
     parallel_chunks(neighbours_.size(), neighbours_per_task,
                     [&](std::size_t begin, std::size_t end) {
                       GroupWork work(*this, light);
+                      std::vector<const LitPlane*> near;
                       for (std::size_t i = 0; i < lit.size(); ++i)
                         for (std::size_t n = begin; n < end; ++n) {
-                          const Neighbours& near = neighbours_[n];
-                          if (!is_near(lit[i]->box(), lit[i]->frame(), near.centre, near.radius_m))
-                            continue;
-                          for (std::size_t g = near.begin; g < near.end; ++g)
-                            work.tell(shares_.groups()[g], *lit[i], all[first + i].k);
+                          const Neighbours& of = neighbours_[n];
+                          find_near(*lit[i], of.centre, of.radius_m, near);
+                          if (near.empty()) continue;
+                          for (std::size_t g = of.begin; g < of.end; ++g)
+                            work.tell(shares_.groups()[g], lit[i]->frame(), near, all[first + i].k);
                         }
                     });
   }
