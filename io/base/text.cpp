@@ -70,6 +70,7 @@ std::string with_units(const std::string& name, std::string units) {
 std::string display_units(const std::string& units) {
   if (units == "1") return {};
   if (units == "percent") return "%";
+  if (units == "m2") return "m²";
   // Light of a place for each square metre of what gives it.
   if (units == "kWh m-4") return "kWh/m² per m²";
   if (units == "klx h m-2") return "klx h per m²";

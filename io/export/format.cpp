@@ -82,8 +82,9 @@ double crs_unit_m(const ResultReader& result) {
 }
 
 std::string export_caption(const ResultReader& result, const ShownQuantity& shown) {
-  return fmt::format("{}: {}{}{}, {}", std::filesystem::path(result.path()).filename().string(),
-                     shown.name, shown.units.empty() ? "" : " ", shown.units, shown.when);
+  return fmt::format("{}: {}{}{}{}{}", std::filesystem::path(result.path()).filename().string(),
+                     shown.name, shown.units.empty() ? "" : " ", shown.units,
+                     shown.when.empty() ? "" : ", ", shown.when);
 }
 
 }  // namespace sunload

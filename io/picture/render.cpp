@@ -33,8 +33,8 @@ namespace {
 constexpr double overview_field_deg = 27, walker_field_deg = 60;
 // Elevation of the overview: roofs and walls are both well seen.
 constexpr double overview_elevation_deg = 35;
-// The afternoon side of the sun's side: 45° west of it.
-constexpr double overview_west_deg = 45;
+// From where the overview looks, beside the side that light comes from.
+constexpr double overview_aside_deg = 45;
 // Balconies and eaves of a facade are less deep than this; what stands farther in front hides it.
 constexpr double facade_front_m = 2;
 // Facades whose normals cancel out to less of their area look all ways.
@@ -63,21 +63,30 @@ Vec3 scene_direction(Horizontal compass, double north_deg) {
   return enu_direction({compass.azimuth_deg - north_deg, compass.elevation_deg});
 }
 
-/// Whether most light comes from the northern half of the sky.
-bool has_northern_sun(const ResultReader& result) {
-  if (!result.has("sun_azimuth")) return result.number_attribute("latitude_deg") < 0;
+/// Azimuth from which light comes on the whole, by the sun's and GHI; of what has no sun the side
+/// of noon.
+double light_azimuth_deg(const ResultReader& result) {
+  constexpr double north_deg_of_compass = 0, south_deg_of_compass = 180;
+  if (!result.has("sun_azimuth"))
+    return result.number_attribute("latitude_deg") < 0 ? north_deg_of_compass
+                                                       : south_deg_of_compass;
   const auto azimuth = result.doubles("sun_azimuth"), ghi = result.doubles("ghi");
-  double northward = 0;
-  for (std::size_t i = 0; i < azimuth.size(); ++i)
-    northward += ghi[i] * std::cos(radians(azimuth[i]));
-  return northward > 0;
+  Vec3 sum{0, 0, 0};
+  for (std::size_t i = 0; i < azimuth.size(); ++i) sum += ghi[i] * enu_direction({azimuth[i], 0});
+  return norm(sum) > 0 ? horizontal(sum).azimuth_deg : south_deg_of_compass;
 }
 
+/// Of north, east, south and west the side that light comes from, and of the sides beside it west
+/// for the former and the latter (the afternoon's); of a morning or an evening the one that gets
+/// more of it.
 Vec3 overview_direction(const ResultReader& result, double north_deg) {
-  constexpr double north_deg_of_compass = 0, south_deg_of_compass = 180;
-  const double azimuth_deg = has_northern_sun(result) ? north_deg_of_compass - overview_west_deg
-                                                      : south_deg_of_compass + overview_west_deg;
-  return scene_direction({azimuth_deg, overview_elevation_deg}, north_deg);
+  constexpr double quarter_deg = 90, south_deg_of_compass = 180;
+  const double light_deg = light_azimuth_deg(result);
+  const double side_deg = std::round(light_deg / quarter_deg) * quarter_deg;
+  const bool is_noon = std::abs(std::cos(radians(side_deg))) > std::sqrt(0.5);
+  const bool is_clockwise = is_noon ? side_deg == south_deg_of_compass : light_deg >= side_deg;
+  const double aside_deg = is_clockwise ? overview_aside_deg : -overview_aside_deg;
+  return scene_direction({side_deg + aside_deg, overview_elevation_deg}, north_deg);
 }
 
 Vec3 sun_at(const ResultReader& result, std::size_t interval) {
@@ -135,8 +144,9 @@ SceneKinds scene_kinds(const ResultReader& result, PictureColours by) {
   const auto area = result.doubles("patch_area");
   SceneKinds kinds;
   std::vector<double> sums(names.size(), 0);
+  const auto of_materials = by_surface ? std::vector<std::size_t>() : material_colours(names);
   for (std::size_t k = 0; k + 1 < names.size(); ++k)
-    kinds.colours.push_back(by_surface ? surface_colour(k) : material_colour(k));
+    kinds.colours.push_back(by_surface ? surface_colour(k) : material_colour(of_materials[k]));
   kinds.colours.push_back(back_colour);
   for (std::size_t p = 0; p < entry.size(); ++p) {
     kinds.of_patch.push_back(entry[p] < 0 ? names.size() - 1 : static_cast<std::size_t>(entry[p]));
@@ -161,6 +171,27 @@ SunTrack sun_track(const ResultReader& result) {
     path.breaks.push_back(k > 0 && time[k] - time[k - 1] > longest_gap_s ? 1 : 0);
   }
   return path;
+}
+
+/// The side to which surfaces look on the whole, by their normals times areas; none where they
+/// look all ways, or up.
+std::optional<Vec3> side_of(Vec3 normal_sum, double area) {
+  if (!(std::hypot(normal_sum.x, normal_sum.y) >= one_sided_share * area)) return {};
+  return normal_sum;
+}
+
+/// Of the place that a map is of.
+std::optional<Vec3> side_of_mapped_place(const ResultReader& result) {
+  const auto weight = result.doubles("place_weight"), area = result.doubles("patch_area"),
+             normal = result.doubles("patch_normal");
+  Vec3 sum{0, 0, 0};
+  double all = 0;
+  for (std::size_t p = 0; p < weight.size(); ++p)
+    if (weight[p] > 0) {
+      sum += area[p] * Vec3{normal[3 * p], normal[3 * p + 1], normal[3 * p + 2]};
+      all += area[p];
+    }
+  return side_of(sum, all);
 }
 
 /// Of patches, 0 of those that a picture of these parts is not of.
@@ -249,15 +280,18 @@ class Renderer {
     if (patches_)
       colours.corner_values = corner_values(*patches_, shown.values,
                                             rules_.crease_angle_deg.value_or(default_crease_deg));
-    const auto kind = rules_.sky.value_or(
-        shown.is_series && !has_long_steps(result_) ? SkyBackground::second : SkyBackground::plain);
+    // Whoever looks down upon the scene sees no sky beside it.
+    const bool has_sky = shown.is_series && !has_long_steps(result_) && !rules_.eye.empty();
+    const auto kind = rules_.sky.value_or(has_sky ? SkyBackground::second : SkyBackground::plain);
     picture->paint(area.x, area.y, area.width,
                    traced_->pixels(colours, {kind, sun_behind(shown.interval)}));
     draw_title(
-        *picture, title(result_) + band_title(result_),
-        shown.name + ", " + shown.when + named_in_words(rules_.parts) +
+        *picture, title(result_) + (in_rgb ? "" : band_title(result_)),
+        shown.name + (shown.when.empty() ? "" : ", " + shown.when) + named_in_words(rules_.parts) +
+            seen_from_in_words(shown) +
             (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : "") +
-            (result_.is_place_map() ? "; green: the place itself" : "") + no_value_in_words(shown));
+            (result_.is_place_map() ? "; green: the place itself" : "") + no_value_in_words(shown) +
+            nothing_in_words(shown));
     const auto marked_where = [&](const auto& is_beyond) {
       return std::any_of(shown.values.begin(), shown.values.end(), is_beyond)
                  ? Legend::Above::marked
@@ -274,6 +308,22 @@ class Renderer {
   }
 
  private:
+  /// From where, if not from the overview; of an interval's values the sun is told already.
+  std::string seen_from_in_words(const ShownQuantity& shown) const {
+    if (!rules_.eye.empty()) return "; seen from " + rules_.eye;
+    if (rules_.view == View::sun && !shown.is_series)
+      return "; seen from the " + row_in_words(result_, shown.interval);
+    return "";
+  }
+
+  /// The scale has to end somewhere.
+  static std::string nothing_in_words(const ShownQuantity& shown) {
+    return std::all_of(shown.values.begin(), shown.values.end(),
+                       [](double value) { return value == 0 || std::isnan(value); })
+               ? "; 0 everywhere"
+               : "";
+  }
+
   /// What surfaces without a value are.
   std::string no_value_in_words(const ShownQuantity& shown) const {
     if (std::none_of(shown.values.begin(), shown.values.end(),
@@ -315,11 +365,12 @@ class Renderer {
 
   /// Of facades that look several ways the side that most of them look to.
   Vec3 view_direction() const {
-    if (rules_.parts.facades.empty() || !place_) return overview_direction(result_, north_deg_);
-    const Vec3 sum = place_->normal_sum;
-    if (std::hypot(sum.x, sum.y) < one_sided_share * place_->area)
-      return overview_direction(result_, north_deg_);
-    return enu_direction({horizontal(sum).azimuth_deg, overview_elevation_deg});
+    const auto side = result_.is_place_map() ? side_of_mapped_place(result_)
+                      : rules_.parts.facades.empty() || !place_
+                          ? std::optional<Vec3>()
+                          : side_of(place_->normal_sum, place_->area);
+    if (!side) return overview_direction(result_, north_deg_);
+    return enu_direction({horizontal(*side).azimuth_deg, overview_elevation_deg});
   }
 
   /// What the camera holds: what is asked for, or the buildings.

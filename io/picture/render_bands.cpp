@@ -36,7 +36,8 @@ BandColours colours_of_bands(const ResultReader& result, const std::string& data
 }
 
 std::string band_title(const ResultReader& result) {
-  return result.band() ? std::string(", ") + band_names[*result.band()] : "";
+  if (result.band()) return std::string(", ") + band_names[*result.band()];
+  return result.bands() == Bands::rgb ? ", mean of the bands" : "";
 }
 
 }  // namespace sunload

@@ -25,7 +25,8 @@ BandColours colours_of_bands(const ResultReader& result, const std::string& data
                              const std::string& time, const std::optional<double>& largest,
                              const std::vector<double>& area);
 
-/// For the title of a picture: the band that is shown, or nothing.
+/// For the title of a picture: the band that is shown, or that it is of all; of results without
+/// bands nothing.
 std::string band_title(const ResultReader& result);
 
 }  // namespace sunload

@@ -81,12 +81,18 @@ std::vector<std::pair<double, std::string>> ticks_of(const Legend& legend) {
     return named;
   }
   const bool has_two_sides = legend.least < 0;
-  const auto ticks = round_ticks(legend.largest, has_two_sides ? most_ticks / 2 : most_ticks);
-  for (const double value : ticks.values) {
+  auto ticks = round_ticks(legend.largest, has_two_sides ? most_ticks / 2 : most_ticks);
+  const auto name = [&](double value, const std::string& text) {
     const bool has_negative = has_two_sides && value > 0;
-    named.emplace_back(value, (has_negative ? "+" : "") + tick_text(value, ticks.decimals));
-    if (has_negative) named.emplace_back(-value, tick_text(-value, ticks.decimals));
-  }
+    named.emplace_back(value, (has_negative ? "+" : "") + text);
+    if (has_negative) named.emplace_back(-value, "-" + text);
+  };
+  // The end of the bar, too, in place of a tick whose words it would touch.
+  constexpr double too_near = 0.06, rounding = 1e-6;  // of the bar
+  const double rest = 1 - ticks.values.back() / legend.largest;
+  if (rest > rounding && rest < too_near && ticks.values.size() > 1) ticks.values.pop_back();
+  for (const double value : ticks.values) name(value, tick_text(value, ticks.decimals));
+  if (rest > rounding) name(legend.largest, fmt::format("{:.4g}", legend.largest));
   return named;
 }
 

@@ -25,6 +25,7 @@ constexpr Colour grid_colour{0.72, 0.72, 0.74}, hills_colour{0.87, 0.85, 0.80},
     falling_half{0.78, 0.32, 0.25}, dot_colour{0.95, 0.62, 0.05}, hidden_colour{0.25, 0.25, 0.25};
 constexpr double day_label_room = 0.11;  // of the radius, for "21 May"
 constexpr int months_per_year = 12, hours_per_day = 24, day_of_month = 21;
+constexpr double small_dot = 1.5, large_dot = 4;  // radii of suns
 constexpr double half_day_s = seconds_per_day / 2;
 
 constexpr std::array<const char*, 12> month_names{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
@@ -181,17 +182,39 @@ class SunDiagram {
       hour_labels_.push_back({hour, highest.front()});
   }
 
-  /// Beside the highest point, on the side where the hour line ends.
+  /// Beside the highest point, on the side where the hour line ends; farther off, or on the other
+  /// side, where it would cover a sun or the label of another hour.
   void label_hour(int hour, Horizontal highest) {
-    constexpr double distance = 1.0;
+    constexpr std::array distances{1.0, 1.6, 2.2, -1.0, -1.6, -2.2};  // of the text's size
     const PicturePoint p = chart_.at(highest),
                        inside = chart_.at({highest.azimuth_deg, highest.elevation_deg + 1});
     const double length = std::hypot(inside.x - p.x, inside.y - p.y);
-    const double shift = length > 0 ? distance * chart_.text_size() / length : 0;
-    write_over({p.x + shift * (inside.x - p.x),
-                p.y + shift * (inside.y - p.y) + 0.36 * chart_.text_size()},
-               fmt::format("{}", hour),
+    const auto middle_at = [&](double distance) {
+      const double shift = length > 0 ? distance * chart_.text_size() / length : 0;
+      return PicturePoint{p.x + shift * (inside.x - p.x), p.y + shift * (inside.y - p.y)};
+    };
+    const auto free = std::ranges::find_if(
+        distances, [&](double distance) { return is_free(middle_at(distance)); });
+    const PicturePoint at = middle_at(free == distances.end() ? distances.front() : *free);
+    label_middles_.push_back(at);
+    write_over({at.x, at.y + 0.36 * chart_.text_size()}, fmt::format("{}", hour),
                {chart_.text_size() * 0.9, Align::centre, Weight::bold, ink});
+  }
+
+  /// Whether an hour's two digits would cover neither a sun's dot nor other digits.
+  bool is_free(PicturePoint middle) const {
+    const double half_width = 0.65 * chart_.text_size(), half_height = 0.5 * chart_.text_size();
+    const auto is_apart = [&](PicturePoint other, double by_x, double by_y) {
+      return std::abs(other.x - middle.x) > by_x || std::abs(other.y - middle.y) > by_y;
+    };
+    return std::ranges::all_of(dots_,
+                               [&](PicturePoint dot) {
+                                 return is_apart(dot, half_width + large_dot,
+                                                 half_height + large_dot);
+                               }) &&
+           std::ranges::all_of(label_middles_, [&](PicturePoint label) {
+             return is_apart(label, 2 * half_width, 2 * half_height);
+           });
   }
 
   void draw_scene_axis() {
@@ -207,10 +230,12 @@ class SunDiagram {
   void draw_suns() {
     // Dots of a year of hours must not hide the lines.
     constexpr std::size_t many = 500;
-    const double radius = light_.intervals.size() > many ? 1.5 : 4;
+    const bool are_many = light_.intervals.size() > many;
+    const double radius = are_many ? small_dot : large_dot;
     for (const auto& interval : light_.intervals) {
       if (interval.when.sun.elevation_deg < 0) continue;
       const PicturePoint p = chart_.at(place_of(interval.when.sun));
+      if (!are_many) dots_.push_back(p);
       if (interval.when.sunlit_s > 0) {
         picture_.fill_circle(p, radius, dot_colour);
         picture_.draw_circle(p, radius, 0.7, ink);
@@ -255,6 +280,7 @@ class SunDiagram {
   std::optional<SunEphemeris> sun_;  ///< of the whole year
   /// Hours with the highest points of their lines.
   std::vector<std::pair<int, Horizontal>> hour_labels_;
+  std::vector<PicturePoint> dots_, label_middles_;  ///< of few suns; of the hours' labels
   Picture picture_;
   DomeChart chart_;
 };

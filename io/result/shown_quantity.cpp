@@ -52,6 +52,18 @@ ShownQuantity shown_radiance(const ResultReader& result, const std::string& time
   return s;
 }
 
+/// Of the shapes alone, whatever the sun does.
+bool is_of_shapes(const std::string& dataset) {
+  return dataset == "patch_area" || dataset == "sky_view_factor";
+}
+
+std::string name_in_words(const std::string& dataset) {
+  constexpr std::string_view error = "_se";
+  return dataset.ends_with(error)
+             ? "standard error of " + spaced(dataset.substr(0, dataset.size() - error.size()))
+             : spaced(dataset);
+}
+
 }  // namespace
 
 std::string usual_quantity(const ResultReader& result) {
@@ -100,7 +112,7 @@ ShownQuantity shown_quantity(const ResultReader& result, const std::string& data
   if (!s.is_series && !is_one_of(patch_datasets(result, PatchDatasets::totals), dataset))
     throw unknown_quantity(result, dataset, shown_names(result), {});
   s.dataset = dataset;
-  s.name = spaced(dataset);
+  s.name = name_in_words(dataset);
   s.stored_units = result.units(dataset);
   s.units = display_units(s.stored_units);
   s.is_difference = result.is_comparison() && dataset == difference_dataset(result.compared());
@@ -108,6 +120,7 @@ ShownQuantity shown_quantity(const ResultReader& result, const std::string& data
     s.interval = time.empty() ? brightest_interval(result) : interval_at(result, time);
   s.values = s.is_series ? result.row(dataset, s.interval) : result.doubles(dataset);
   s.when = s.is_series ? row_in_words(result, s.interval) : period_in_words(result);
+  if (is_of_shapes(dataset)) s.when.clear();
   if (dataset.starts_with(measure_prefix))
     if (const auto day = result.text_attribute(dataset, "when"); !day.empty()) s.when = day;
   return s;
