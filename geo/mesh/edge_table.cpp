@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geo/mesh/edge_table.h"
 
+#include <cmath>
 #include <tuple>
 
 namespace sunload {
@@ -29,6 +30,20 @@ std::vector<EdgeUse> edge_uses(const Mesh& mesh, const std::vector<std::uint8_t>
   }
   std::sort(uses.begin() + static_cast<std::ptrdiff_t>(object_begin), uses.end(), by_edge);
   return uses;
+}
+
+std::vector<double> angles_about(const Mesh& mesh, std::span<const EdgeUse> uses) {
+  const Vec3 start = mesh.vertices[static_cast<std::size_t>(uses[0].low)];
+  const Vec3 edge = mesh.vertices[static_cast<std::size_t>(uses[0].high)] - start;
+  const double length = norm(edge);
+  const auto frame = tangents(length > 0 ? edge / length : Vec3{0, 0, 1});
+  std::vector<double> angles;
+  for (const auto& use : uses) {
+    const auto corner = static_cast<int>((use.corner() + 2) % 3);
+    const Vec3 apex = mesh.corner(use.triangle(), corner) - start;
+    angles.push_back(std::atan2(dot(apex, frame.bitangent), dot(apex, frame.tangent)));
+  }
+  return angles;
 }
 
 }  // namespace sunload

@@ -37,6 +37,10 @@ void for_each_edge(const std::vector<EdgeUse>& uses, Visit visit) {
   }
 }
 
+/// Where the triangles of one edge's uses lie about it [rad, -π … π], counter-clockwise as seen
+/// from its higher vertex, from a direction of its own.
+std::vector<double> angles_about(const Mesh& mesh, std::span<const EdgeUse> uses);
+
 /// True where the triangle walks the edge from its lower to its higher vertex.
 inline bool walks_up(const Mesh& mesh, const EdgeUse& use) {
   return mesh.triangles[use.triangle()][use.corner()] == use.low;

@@ -3,7 +3,6 @@
 #include "geo/mesh/facing_links.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geo/base/units.h"
 #include "geo/mesh/edge_table.h"
@@ -26,17 +25,12 @@ struct AngledUse {
 
 std::vector<AngledUse> by_angle(const Mesh& mesh, const Links& links, const Grouping& sheets,
                                 std::span<const EdgeUse> uses) {
-  const Vec3 start = mesh.vertices[static_cast<std::size_t>(uses[0].low)];
-  const Vec3 edge = mesh.vertices[static_cast<std::size_t>(uses[0].high)] - start;
-  const double length = norm(edge);
-  const auto frame = tangents(length > 0 ? edge / length : Vec3{0, 0, 1});
+  const std::vector<double> angles = angles_about(mesh, uses);
   std::vector<AngledUse> order;
-  for (const auto& use : uses) {
-    const std::size_t t = use.triangle();
-    const Vec3 apex = mesh.corner(t, static_cast<int>((use.corner() + 2) % 3)) - start;
-    order.push_back({std::atan2(dot(apex, frame.bitangent), dot(apex, frame.tangent)),
-                     use.half_edge, sheets.body[t],
-                     (links.up[use.half_edge] ^ sheets.flip[t]) != 0});
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    const std::size_t t = uses[i].triangle();
+    order.push_back({angles[i], uses[i].half_edge, sheets.body[t],
+                     (links.up[uses[i].half_edge] ^ sheets.flip[t]) != 0});
   }
   std::stable_sort(order.begin(), order.end(),
                    [](const auto& a, const auto& b) { return a.angle < b.angle; });

@@ -167,7 +167,8 @@ class FootFinder {
   void find_lower_edges() {
     std::vector<std::uint8_t> included(mesh_.triangle_count());
     for (std::size_t t = 0; t < included.size(); ++t)
-      included[t] = has_feet_[mesh_.triangle_object[t].index()] && bodies_.triangle_body[t] >= 0;
+      included[t] = has_feet_[mesh_.triangle_object[t].index()] && bodies_.triangle_body[t] >= 0 &&
+                    !bodies_.is_inner(t);
     lower_.resize(feet_.size());
     for_each_edge(edge_uses(mesh_, included), [&](std::span<const EdgeUse> uses) {
       const Vec3 a = at(uses[0].low), b = at(uses[0].high);

@@ -20,6 +20,7 @@ constexpr double least_m2 = 1;
 /// Areas of the plan [m2].
 struct Plan {
   double up = 0, all = 0;
+  bool has_walls = false;
   bool looks_down() const { return all > least_m2 && -up > downward_majority * all; }
   void add(double upward_m2) {
     up += upward_m2;
@@ -34,12 +35,17 @@ LooksDown find_looking_down(const Mesh& mesh, const Bodies& bodies, SceneKind ki
   Plan whole;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const auto body = bodies.triangle_body[t];
-    if (body < 0 || bodies.bodies[static_cast<std::size_t>(body)].is_closed) continue;
-    if (mesh.triangle_sides[t] == Sides::two || mesh.triangle_surface[t] == Surface::floor ||
-        slope_of(mesh, t) == Slope::upright)
+    if (body < 0 || bodies.bodies[static_cast<std::size_t>(body)].is_closed || bodies.is_inner(t))
       continue;
+    if (mesh.triangle_sides[t] == Sides::two || mesh.triangle_surface[t] == Surface::floor)
+      continue;
+    Plan& plan = of_object[mesh.triangle_object[t].index()];
+    if (slope_of(mesh, t) == Slope::upright) {
+      plan.has_walls = true;
+      continue;
+    }
     const double upward_m2 = mesh.area_vector2(t).z / 2;
-    of_object[mesh.triangle_object[t].index()].add(upward_m2);
+    plan.add(upward_m2);
     whole.add(upward_m2);
   }
   LooksDown found;
@@ -47,7 +53,8 @@ LooksDown find_looking_down(const Mesh& mesh, const Bodies& bodies, SceneKind ki
   double largest_m2 = 0;
   for (std::size_t o = 0; o < of_object.size(); ++o) {
     const Plan& plan = of_object[o];
-    if (!plan.looks_down() || !(of_each || is_land(mesh.object_kinds[o]))) continue;
+    if (!plan.looks_down() || !(of_each || plan.has_walls || is_land(mesh.object_kinds[o])))
+      continue;
     ++found.objects;
     found.area_m2 += plan.all;
     if (plan.all <= largest_m2) continue;

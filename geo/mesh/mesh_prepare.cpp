@@ -178,6 +178,7 @@ std::vector<Foot> settle(Mesh& mesh, const PrepareRules& rules, const PolygonMod
   report.open_edges = bodies.open_edges;
   report.nonmanifold_edges = bodies.nonmanifold_edges;
   for (const auto& body : bodies.bodies) {
+    if (body.is_inner) continue;
     ++(body.is_closed ? report.closed_bodies : report.open_sheets);
     if (!body.is_inside_out) report.volume_m3 += body.volume;
   }

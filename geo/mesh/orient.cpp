@@ -10,6 +10,7 @@
 #include "geo/base/units.h"
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/facing_links.h"
+#include "geo/mesh/inner_faces.h"
 
 namespace sunload {
 
@@ -210,15 +211,34 @@ class Orienter {
   std::vector<Body> bodies_;
 };
 
+/// The same with some bodies more, of other triangles.
+void append(const Bodies& more, Bodies& bodies) {
+  const auto first = static_cast<std::int32_t>(bodies.bodies.size());
+  for (std::size_t t = 0; t < more.triangle_body.size(); ++t)
+    if (more.triangle_body[t] >= 0) bodies.triangle_body[t] = first + more.triangle_body[t];
+  bodies.bodies.insert(bodies.bodies.end(), more.bodies.begin(), more.bodies.end());
+}
+
+/// Of the triangles of a mesh with a flag.
+Bodies inner_bodies(Mesh& mesh, const std::vector<std::uint8_t>& inner) {
+  Bodies found =
+      Orienter(mesh, group(mesh, link_edges(mesh, inner), inner), Winding::keep).finish(mesh);
+  for (Body& body : found.bodies) body.is_inner = true;
+  return found;
+}
+
 }  // namespace
 
 Bodies orient(Mesh& mesh, const std::vector<std::uint8_t>& faced_both_ways, Winding winding) {
+  std::vector<std::uint8_t> inner(mesh.triangle_count(), 0);
+  if (winding == Winding::turn) inner = inner_faces(mesh);
   std::vector<std::uint8_t> included(mesh.triangle_count(), 1);
+  for (std::size_t t = 0; t < included.size(); ++t) included[t] = inner[t] == 0;
   Links links = link_edges(mesh, included);
   Orienter orienter(mesh, group(mesh, links, included), winding);
   bool is_any_left_out = false;
   for (std::size_t t = 0; t < included.size(); ++t) {
-    if (!faced_both_ways[t] || orienter.is_closed_at(t)) continue;
+    if (!included[t] || !faced_both_ways[t] || orienter.is_closed_at(t)) continue;
     included[t] = 0;
     is_any_left_out = true;
   }
@@ -229,6 +249,7 @@ Bodies orient(Mesh& mesh, const std::vector<std::uint8_t>& faced_both_ways, Wind
   } else {
     result = orienter.finish(mesh);
   }
+  if (std::ranges::count(inner, 1) > 0) append(inner_bodies(mesh, inner), result);
   result.open_edges = links.open_edges;
   result.nonmanifold_edges = links.nonmanifold_edges;
   return result;

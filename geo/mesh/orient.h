@@ -21,6 +21,7 @@ struct Body {
   double area = 0;             ///< m²
   double volume = 0;           ///< m³, signed, of closed bodies: negative for cavities
   bool is_inside_out = false;  ///< closed, in no other body, negative volume: a room (`keep` only)
+  bool is_inner = false;       ///< faces between the cells of another body
   Box box;
 };
 
@@ -33,6 +34,12 @@ struct Bodies {
   std::size_t unorientable = 0;       ///< no winding satisfies all edges: left as in the file
   std::size_t open_edges = 0;         ///< with one use
   std::size_t nonmanifold_edges = 0;  ///< with more than two uses
+
+  /// Whether a triangle is a face between the cells of a body.
+  bool is_inner(std::size_t t) const {
+    const auto b = triangle_body[t];
+    return b >= 0 && bodies[static_cast<std::size_t>(b)].is_inner;
+  }
 };
 
 /// Which triangles at an edge must agree: geo/mesh/facing_links. Edges with an odd number of uses
@@ -42,6 +49,9 @@ struct Bodies {
 /// in the file. A closed body is turned outward (positive volume); a closed
 /// body inside another one of the same object, a cavity, keeps the winding that
 /// it has in the file relative to the body around it.
+///
+/// Faces between the cells of a body that is divided (geo/mesh/inner_faces) are no part of it with
+/// `turn`: they are bodies of their own.
 ///
 /// Where `faced_both_ways` is not 0 a front and a back share the triangle. It
 /// belongs to a body only if that body is closed by it: else it is left out and

@@ -89,7 +89,7 @@ class Sheets {
   bool is_sheet(std::size_t t) const {
     const auto b = bodies_.triangle_body[t];
     return b >= 0 && !bodies_.bodies[static_cast<std::size_t>(b)].is_closed &&
-           mesh_.object_kinds[mesh_.triangle_object[t].index()].empty() &&
+           !bodies_.is_inner(t) && mesh_.object_kinds[mesh_.triangle_object[t].index()].empty() &&
            mesh_.triangle_surface[t] != Surface::ground && slope_of(mesh_, t) == Slope::upward;
   }
 

@@ -27,7 +27,7 @@ struct Heights {
 class Supports {
  public:
   Supports(const Mesh& mesh, const Bodies& bodies)
-      : bodies_(bodies), upward_(mesh, upward_triangles(mesh)) {}
+      : bodies_(bodies), upward_(mesh, upward_triangles(mesh, bodies)) {}
 
   /// The highest of other bodies at (x, y) that is lower than `top`; -infinity where there is none.
   double below(std::int32_t body, double x, double y, double top) const {
@@ -39,10 +39,10 @@ class Supports {
   }
 
  private:
-  static std::vector<std::size_t> upward_triangles(const Mesh& mesh) {
+  static std::vector<std::size_t> upward_triangles(const Mesh& mesh, const Bodies& bodies) {
     std::vector<std::size_t> upward;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      if (slope_of(mesh, t) == Slope::upward) upward.push_back(t);
+      if (slope_of(mesh, t) == Slope::upward && !bodies.is_inner(t)) upward.push_back(t);
     return upward;
   }
 

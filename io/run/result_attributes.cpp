@@ -71,6 +71,32 @@ std::string buried_sensors(const Totals& totals, const ResultGeometry& geometry)
       count, backs.size(), first, at.x, at.y, at.z);
 }
 
+/// Patches of buildings that neither sky nor anything lit sees, where there is a sky: faces within
+/// houses that are not closed. Some are in every model.
+std::string dark_faces(const Totals& totals, const ResultGeometry& geometry) {
+  constexpr double worth_a_word = 0.01;  // of the area of all that is no ground
+  const auto &load = totals[sum_name(Part::total)], &sky = totals[sum_name(Part::sky)];
+  if (std::ranges::none_of(sky, [](double exposure) { return exposure > 0; })) return {};
+  std::vector<double> of_object(geometry.object_name.size(), 0);
+  double dark = 0, all = 0;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    if (static_cast<Surface>(geometry.patch_surface[i]) == Surface::ground) continue;
+    all += geometry.patch_area[i];
+    if (load[i] > 0) continue;
+    dark += geometry.patch_area[i];
+    if (const auto object = geometry.patch_object[i]; object >= 0)
+      of_object[static_cast<std::size_t>(object)] += geometry.patch_area[i];
+  }
+  if (dark <= worth_a_word * all) return {};
+  const auto most = std::ranges::max_element(of_object) - of_object.begin();
+  return fmt::format(
+      "{:.3g} m2 of surfaces ({:.2g} % of all but ground) get no light at all, most of them of {}; "
+      "they are faces within houses or look into houses that are not closed, and means, lists and "
+      "measures count them; leave inner faces out of the model, or close the houses (scene.repair: "
+      "all)",
+      dark, 100 * dark / all, geometry.object_name[static_cast<std::size_t>(most)]);
+}
+
 /// Share of the leaf area that counts whose error is as small as the study asks for.
 double accuracy_share(const Totals& totals, const ResultGeometry& geometry, double relative) {
   const auto& load = totals[sum_name(Part::total)];
@@ -265,6 +291,7 @@ std::vector<std::string> result_warnings(const Totals& totals, const ResultGeome
       warnings.push_back(empty_selection_warning(geometry.selection_name[k]));
   if (auto buried = buried_sensors(totals, geometry); !buried.empty())
     warnings.push_back(std::move(buried));
+  if (auto dark = dark_faces(totals, geometry); !dark.empty()) warnings.push_back(std::move(dark));
   return warnings;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/sight/closed_bodies.h"
 
-#include "solver/sight/together.h"
+#include "geo/base/together.h"
 
 namespace sunload {
 

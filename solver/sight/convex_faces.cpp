@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/sight/together.h"
+#include "geo/base/together.h"
 
 namespace sunload {
 

@@ -183,5 +183,94 @@ TEST(CommonSense, EnergyOfTheStreetDemonstration) {
   }
 }
 
+/// An OBJ of boxes, whose faces are those of `skipped` left out (bottom, top, south, east, north,
+/// west). Corners are written anew for each box.
+struct ObjBox {
+  double x0, y0, z0, x1, y1, z1;
+  std::vector<int> skipped;
+};
+std::string obj_of(const std::vector<ObjBox>& boxes, bool are_objects) {
+  constexpr int corners[6][4] = {{4, 3, 2, 1}, {5, 6, 7, 8}, {1, 2, 6, 5},
+                                 {2, 3, 7, 6}, {3, 4, 8, 7}, {4, 1, 5, 8}};
+  std::string text = "o house\n";
+  std::size_t number = 0;
+  for (const ObjBox& b : boxes) {
+    if (are_objects) text += fmt::format("o part_{}\n", number);
+    for (const double z : {b.z0, b.z1})
+      for (const auto& [x, y] : {std::pair{b.x0, b.y0}, {b.x1, b.y0}, {b.x1, b.y1}, {b.x0, b.y1}})
+        text += fmt::format("v {} {} {}\n", x, y, z);
+    for (int f = 0; f < 6; ++f) {
+      if (std::ranges::find(b.skipped, f) != b.skipped.end()) continue;
+      text += "f";
+      for (const int c : corners[f]) text += fmt::format(" {}", c + 8 * static_cast<int>(number));
+      text += "\n";
+    }
+    ++number;
+  }
+  return text;
+}
+
+Ran run_on_meadow(const WorkFolder& folder, const std::string& name, const std::string& obj) {
+  folder.write(name + ".obj", obj);
+  folder.write(name + ".yaml",
+               "format: sunload-study-1\n"
+               "name: " +
+                   name +
+                   "\n"
+                   "site: {latitude_deg: 50, longitude_deg: 14, timezone: \"+01:00\"}\n"
+                   "period: {days: [2026-03-21], step_min: 120}\n"
+                   "light: {source: clear_sky}\n"
+                   "scene: {files: [" +
+                   name +
+                   ".obj], ground: {surface: level, height_m: 0, margin_m: "
+                   "20, material: stone}, materials: {stone: {diffuse: 0.2}}, assign: [{material: "
+                   "stone}]}\n"
+                   "mesh: {oracle: none, max_edge_m: 3}\n"
+                   "solver: {lines_per_patch: 64}\n");
+  return program(folder, {"run", name + ".yaml"});
+}
+
+TEST(CommonSense, SlabsBetweenStoreysChangeNothing) {
+  const WorkFolder folder;
+  const Ran whole = run_on_meadow(folder, "whole", obj_of({{0, 0, 0, 8, 6, 9, {}}}, false));
+  const Ran storeys = run_on_meadow(
+      folder, "storeys",
+      obj_of({{0, 0, 0, 8, 6, 3, {}}, {0, 0, 3, 8, 6, 6, {0}}, {0, 0, 6, 8, 6, 9, {0}}}, false));
+  ASSERT_EQ(whole.code + storeys.code, 0) << whole.err << storeys.err;
+  const auto mean = [&](const char* study) {
+    const ResultReader result(folder / (std::string("results/") + study + "/baseline.h5"));
+    const auto area = result.doubles("patch_area"), load = result.doubles("light_load");
+    const auto surface = result.integers("patch_surface");
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < area.size(); ++i) {
+      if (static_cast<Surface>(surface[i]) == Surface::ground) continue;
+      sum += area[i] * load[i];
+      all += area[i];
+    }
+    return std::pair{sum / all, all};
+  };
+  const auto [load, area] = mean("whole");
+  const auto [of_storeys, area_of_storeys] = mean("storeys");
+  EXPECT_NEAR(area_of_storeys, area, 1e-6 * area);
+  EXPECT_NEAR(of_storeys, load, 0.02 * load);  // 64 lines, on patches of other shapes
+}
+
+TEST(CommonSense, FacesWithinHousesThatAreNotClosedAreTold) {
+  // Walls and slabs as solids of their own, as building models are exported.
+  const WorkFolder folder;
+  const Ran parts = run_on_meadow(folder, "parts",
+                                  obj_of({{0, 0, 0, 8, 6, 0.3, {}},
+                                          {0, 0, 0.3, 8, 0.3, 3, {}},
+                                          {0, 5.7, 0.3, 8, 6, 3, {}},
+                                          {0, 0.3, 0.3, 0.3, 5.7, 3, {}},
+                                          {7.7, 0.3, 0.3, 8, 5.7, 3, {}},
+                                          {0, 0, 3, 8, 6, 3.3, {}}},
+                                         true));
+  ASSERT_EQ(parts.code, 0) << parts.err;
+  EXPECT_NE(parts.err.find("get no light at all"), std::string::npos) << parts.err;
+  const Ran whole = run_on_meadow(folder, "whole", obj_of({{0, 0, 0, 8, 6, 9, {}}}, false));
+  EXPECT_EQ(whole.err.find("get no light at all"), std::string::npos) << whole.err;
+}
+
 }  // namespace
 }  // namespace sunload::test

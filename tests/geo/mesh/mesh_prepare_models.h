@@ -3,6 +3,7 @@
 /// Small polygon models for the tests of mesh preparation.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -10,6 +11,12 @@
 #include "geo/mesh/mesh_prepare.h"
 
 namespace sunload::test {
+
+/// The same ring walked the other way: its face looks the other way.
+inline std::vector<Vec3> reversed(std::vector<Vec3> ring) {
+  std::reverse(ring.begin(), ring.end());
+  return ring;
+}
 
 class ModelBuilder {
  public:

@@ -14,11 +14,6 @@ constexpr double orient_rounding = 1e-12;
 
 PrepareRules repair(Repair r) { return {.repair = r, .ground = {}}; }
 
-std::vector<Vec3> reversed(std::vector<Vec3> ring) {
-  std::reverse(ring.begin(), ring.end());
-  return ring;
-}
-
 TEST(Orient, TurnsAClosedBodyOutwardWhateverTheFileSays) {
   // Each of the 64 choices of reversed faces.
   const auto faces = ModelBuilder::box_faces({1, 2, 3}, {3, 5, 7});
@@ -244,6 +239,18 @@ TEST(Orient, OpenSurfacesThatLookDownAreTold) {
   // Ceilings of rooms.
   EXPECT_EQ(looks_down(false, false, Orientation::outward).looks_down.objects, 0u);
   EXPECT_EQ(looks_down(true, true, Orientation::keep).looks_down.objects, 0u);
+}
+
+// The ground looks up and is larger; walls tell a house from a ceiling.
+TEST(Orient, AHouseThatLooksDownIsToldBesideGroundThatLooksUp) {
+  auto builder = ModelBuilder().object("ground");
+  builder.ring({{0, 0, 0}, {50, 0, 0}, {50, 40, 0}, {0, 40, 0}});
+  builder.object("house");
+  const auto faces = ModelBuilder::box_faces({10, 10, 0}, {20, 20, 9});
+  for (std::size_t f = 1; f < 6; ++f) builder.ring(reversed(faces[f]));  // all but the lowest
+  const PrepareReport report = builder.prepared().report;
+  EXPECT_EQ(report.looks_down.objects, 1u);
+  EXPECT_EQ(report.looks_down.largest, "house");
 }
 
 TEST(Orient, AllSplitsTJointsSoThatTheBodyCloses) {

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The sunload authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Faces between the cells of a divided body: storeys, party walls, partitions.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geo/mesh/mesh.h"
+
+namespace sunload {
+
+/// One flag per triangle: 1 where both of its sides look into cells that the triangles of its
+/// object close around, so that without it the body is as closed as with it. Asked of triangles
+/// that hang together where some edge has an odd number of uses, three or more: there solid and
+/// void cannot alternate. Windings are not asked. What lies in the same place may be told so, too.
+///
+/// Sides of triangles that follow each other about an edge see the same part of space; all sides
+/// that see one part enclose it, if the volume on their side is finite. Cost: one pass, and a sort
+/// about each edge with more than two uses.
+std::vector<std::uint8_t> inner_faces(const Mesh& mesh);
+
+}  // namespace sunload
