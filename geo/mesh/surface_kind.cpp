@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geo/mesh/open_below.h"
 #include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
 
@@ -57,6 +58,7 @@ class Decision {
         bodies_(bodies),
         kind_(kind),
         standing_(standing),
+        open_below_(mesh, bodies),
         of_object_(mesh.object_names.size()) {
     for (const auto& body : bodies.bodies) of_object_[body.object.index()].add(body.box);
   }
@@ -92,8 +94,9 @@ class Decision {
     if (!is_closed && is_land(word))  // however steep: quays, pits, kerbs
       return s == Slope::downward ? Surface::other : Surface::ground;
     if (is_plant(word)) return Surface::other;
-    if (kind_ == SceneKind::plain && !is_closed)
-      return s == Slope::upright ? Surface::wall : Surface::other;
+    if (kind_ == SceneKind::plain && !is_closed && s != Slope::upright)
+      return s == Slope::upward && open_below_.has(bodies_.triangle_body[t]) ? Surface::roof
+                                                                             : Surface::other;
     if (s == Slope::upright) return Surface::wall;
     if (body && body->is_inside_out) return Surface::other;
     if (s == Slope::upward) return Surface::roof;
@@ -151,6 +154,7 @@ class Decision {
   const Bodies& bodies_;
   SceneKind kind_;
   const Standing& standing_;
+  OpenBelow open_below_;
   std::vector<Heights> of_object_;
   std::vector<std::size_t> low_faces_;
 };

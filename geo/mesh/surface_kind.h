@@ -22,7 +22,11 @@ inline constexpr double touching_ratio = 0.005;
 /// | closed body; any body of a city | wall | roof | floor at the foot, else other |
 /// | open land (terrain, roads, water, …) | ground | ground | other |
 /// | plants of a city | other | other | other |
-/// | open sheet of a plain file | wall | other | other |
+/// | house without a floor of a plain file | wall | roof | other |
+/// | other open sheet of a plain file | wall | other | other |
+///
+/// A house without a floor is open along lower edges of its walls and nowhere else, and its fronts
+/// look outward.
 ///
 /// The foot is that of the body, in cities that of the object. Floors touch the ground or another
 /// body and are no patches: of a plain file a face at the foot is one only where the highest upward

@@ -111,6 +111,33 @@ TEST(SurfaceKind, OpenSheetsOfPlainFilesOnlyHaveWalls) {
   EXPECT_EQ(p.report.floors, 0u);
 }
 
+TEST(SurfaceKind, HousesWithoutAFloorHaveRoofs) {
+  auto builder = ModelBuilder().object("house").walls_and_roof({0, 0, 0}, {8, 6, 3});
+  EXPECT_NEAR(area_of(builder.prepared(), Surface::roof), 48, surface_rounding);
+  // On a slope, as terrain would have it.
+  builder.object("on a slope").moved([](Vec3 p) {
+    return p.z > 0 ? p : Vec3{p.x, p.y, -0.2 * p.x};
+  });
+  EXPECT_NEAR(area_of(builder.prepared(), Surface::roof), 48, surface_rounding);
+}
+
+TEST(SurfaceKind, SheetsThatAreOpenElsewhereHaveNone) {
+  const auto roof_of = [](const std::vector<std::vector<Vec3>>& faces) {
+    auto builder = ModelBuilder().object("sheet");
+    for (const auto& face : faces) builder.ring(face);
+    return area_of(builder.prepared(), Surface::roof);
+  };
+  auto faces = ModelBuilder::box_faces({0, 0, 0}, {8, 6, 3});
+  faces.erase(faces.begin());
+  EXPECT_NEAR(roof_of(faces), 48, surface_rounding);
+  auto without_wall = faces;
+  without_wall.pop_back();
+  EXPECT_EQ(roof_of(without_wall), 0);
+  auto inward = faces;
+  for (auto& face : inward) face = reversed(face);
+  EXPECT_EQ(roof_of(inward), 0);
+}
+
 TEST(SurfaceKind, CitiesKnowLandAndPlants) {
   auto builder = ModelBuilder().city().object("road", "Road");
   builder.ring({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}});
