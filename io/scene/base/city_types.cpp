@@ -67,9 +67,9 @@ SemanticSurface semantic_surface(std::string_view surface_type) {
       {"TransportationHole", {Surface::ground}},
       {"OuterCeilingSurface", {Surface::other}},
       {"OuterFloorSurface", {Surface::other}},
-      {"InteriorWallSurface", {Surface::other}},
-      {"CeilingSurface", {Surface::other}},
-      {"FloorSurface", {Surface::other}},
+      {"InteriorWallSurface", {Surface::other, true, OfRoom::yes}},
+      {"CeilingSurface", {Surface::other, true, OfRoom::beside_walls_of_rooms}},
+      {"FloorSurface", {Surface::other, true, OfRoom::beside_walls_of_rooms}},
       {"ClosureSurface", {std::nullopt}},
       {"WaterClosureSurface", {std::nullopt}}};
   const auto found = table.find(surface_type);

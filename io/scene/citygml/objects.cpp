@@ -107,6 +107,7 @@ class ObjectReader {
     object.type = of_cityjson(feature.name());
     object.is_part = object.type.ends_with("Part");
     walk(feature, object, {}, Walk{depth, false, false});
+    leave_out_rooms(object);
     choose(object);
     unstack_reliefs(object);
     unstack_parts(object);
@@ -115,6 +116,15 @@ class ObjectReader {
   }
 
  private:
+  void leave_out_rooms(CityObject& object) {
+    if (!has_rooms_inside(object.geometries,
+                          [](const auto& one) -> const SemanticSurface& { return one.surface; }))
+      return;
+    const auto left_out = std::erase_if(
+        object.geometries, [](const auto& one) { return one.surface.of_room != OfRoom::no; });
+    for (std::size_t i = 0; i < left_out; ++i) notes_.count(surfaces_of_rooms_left_out);
+  }
+
   struct Walk {
     int depth = 0;
     bool is_boundary = false, is_open_space = false;

@@ -110,6 +110,8 @@ class GeometryReader {
         notes_.count("semantic surfaces of unknown type: kind of surface by slope");
       }
     }
+    has_rooms_inside_ = has_rooms_inside(
+        rules_, [](const SemanticSurface& rule) -> const SemanticSurface& { return rule; });
   }
 
   void read_surface(const json& surface, const json* semantics, const json* material) {
@@ -117,6 +119,8 @@ class GeometryReader {
     if (semantics != nullptr) {
       const auto& rule = semantic_rule(*semantics);
       if (!rule.kind) return notes_.count("closure surfaces left out: light passes them");
+      if (has_rooms_inside_ && rule.of_room != OfRoom::no)
+        return notes_.count(surfaces_of_rooms_left_out);
       if (*rule.kind != Surface::other) facts.surface = *rule.kind;
     }
     if (material == nullptr) material = theme_.value;
@@ -177,6 +181,7 @@ class GeometryReader {
   NoteCounter& notes_;
   ThemeValues theme_;
   const json* semantic_values_ = nullptr;
+  bool has_rooms_inside_ = false;
   std::vector<SemanticSurface> rules_;
   std::size_t surface_ = 0;
 };

@@ -58,6 +58,24 @@ TEST(SceneCityGml, SolidsLinkToPolygonsOfBoundarySurfaces) {
   EXPECT_EQ(broken_arrays(model), "");
 }
 
+TEST(SceneCityGml, SurfacesOfRoomsAreLeftOutOfHouses) {
+  const auto faces = box_faces(0, 0, 0, 10, 10, 5);
+  const auto boundary = [&](const std::string& type, int face) {
+    return element(
+        "bldg:boundedBy",
+        element("bldg:" + type,
+                element("bldg:lod3MultiSurface",
+                        multi_surface({polygon(faces[static_cast<std::size_t>(face)])}))));
+  };
+  const std::string rooms = boundary("InteriorWallSurface", 3) + boundary("FloorSurface", 0) +
+                            boundary("CeilingSurface", 1);
+  const auto house =
+      read_text("rooms.gml", city_gml(building("b", boundary("WallSurface", 2) + rooms)));
+  EXPECT_EQ(surfaces_of(house), std::vector<Surface>{Surface::wall});
+  EXPECT_TRUE(has_note(house, "3 surfaces of rooms left out"));
+  EXPECT_EQ(read_text("alone.gml", city_gml(building("b", rooms))).polygon_count(), 3u);
+}
+
 TEST(SceneCityGml, PolygonsThatAreWrittenTwiceAreReadOnce) {
   const auto faces = box_faces(0, 0, 0, 1, 1, 1);
   std::vector<std::string> polygons;

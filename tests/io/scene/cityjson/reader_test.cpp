@@ -123,6 +123,31 @@ TEST(SceneCityJson, SemanticSurfaces) {
   EXPECT_TRUE(has_note(model, "1 semantic surfaces of unknown type"));
 }
 
+TEST(SceneCityJson, SurfacesOfRoomsAreLeftOutOfHouses) {
+  const auto read_kinds = [](const std::string& types) {
+    return read_text(
+        "rooms.json",
+        city(object("b", "Building",
+                    R"({"type":"MultiSurface","lod":"3","boundaries":[[[0,1,2]],[[0,2,3]],[[0,1,3]],
+                    [[4,5,6]]],"semantics":{"surfaces":[)" +
+                        types + R"(],"values":[0,1,2,3]}})")));
+  };
+  const auto house = read_kinds(
+      R"({"type":"WallSurface"},{"type":"InteriorWallSurface"},{"type":"FloorSurface"},
+         {"type":"CeilingSurface"})");
+  EXPECT_EQ(house.polygon_count(), 1u);
+  EXPECT_TRUE(has_note(house, "3 surfaces of rooms left out"));
+  // Terraces and undersides; and rooms without a house.
+  EXPECT_EQ(read_kinds(R"({"type":"WallSurface"},{"type":"RoofSurface"},{"type":"FloorSurface"},
+                          {"type":"CeilingSurface"})")
+                .polygon_count(),
+            4u);
+  EXPECT_EQ(read_kinds(R"({"type":"InteriorWallSurface"},{"type":"InteriorWallSurface"},
+                          {"type":"FloorSurface"},{"type":"CeilingSurface"})")
+                .polygon_count(),
+            4u);
+}
+
 TEST(SceneCityJson, LevelsOfDetailAreNotStacked) {
   const auto text =
       city(object("b", "Building",
