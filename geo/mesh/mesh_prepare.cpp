@@ -172,6 +172,7 @@ std::vector<Foot> settle(Mesh& mesh, const PrepareRules& rules, const PolygonMod
   }
   const bool may_turn = rules.repair != Repair::none && rules.orientation == Orientation::outward;
   bodies = orient(mesh, faced_both_ways, may_turn ? Winding::turn : Winding::keep);
+  if (may_turn) report.turned = turn_sheets_on_walls(mesh, bodies);
   report.triangles_flipped = bodies.triangles_flipped;
   report.inside_out_bodies = bodies.inside_out;
   report.unorientable = bodies.unorientable;
@@ -295,6 +296,12 @@ void add_warnings(PrepareReport& r, Orientation orientation) {
   warn("triangles turned over", r.triangles_flipped,
        "their body was inside out or its faces disagreed, so their lit side has changed; "
        "scene.orient: keep leaves them, for rooms lit inside");
+  if (r.turned.triangles > 0)
+    r.warnings.push_back(text_of(r.turned.area_m2) +
+                         " m2 of sheets looked into the wall or roof that they lie on (most of " +
+                         r.turned.largest +
+                         "): they are turned over; turn their faces in the file, or scene.orient: "
+                         "keep leaves them");
   if (orientation == Orientation::outward)
     warn("closed bodies inside out", r.inside_out_bodies,
          "left so, hence their outside absorbs all light; set scene.repair: safe");

@@ -21,7 +21,8 @@
 ///    place are a two-sided sheet, unless the object closes with one of them.
 /// 7. **Orient** (geo/mesh/orient; `none` and `keep` change no winding): closed bodies are
 ///    turned outward, cavities with the body around them; open sheets keep the
-///    winding of the larger part of their area.
+///    winding of the larger part of their area, but for panes that look into the wall that they
+///    lie on (geo/mesh/sheets_on_walls).
 /// 8. **Kind of surface** (geo/mesh/surface_kind) where the reader left `other`.
 /// 9. **Degenerates** (geo/mesh/mesh_clean): triangles whose height is at most
 ///    `least_height_ratio` of their longest edge are dropped, after step 7 so
@@ -41,6 +42,7 @@
 #include "geo/mesh/looks_down.h"
 #include "geo/mesh/mesh.h"
 #include "geo/mesh/orient.h"
+#include "geo/mesh/sheets_on_walls.h"
 #include "geo/mesh/sunk_walls.h"
 
 namespace sunload {
@@ -86,6 +88,7 @@ struct PrepareReport {
   std::size_t open_edges = 0, nonmanifold_edges = 0;
   LooksDown looks_down;    ///< open surfaces, which keep the file's fronts
   SunkWalls sunk;          ///< below sheets that are no land
+  TurnedSheets turned;     ///< panes that looked into their walls
   std::size_t floors = 0;  ///< triangles that touch the ground: cast shadows, are no patches
   std::array<double, surface_names.size()> area_m2{};     ///< per surface kind
   std::array<double, surface_names.size()> covered_m2{};  ///< of it: no light can reach it

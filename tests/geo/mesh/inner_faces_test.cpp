@@ -48,16 +48,16 @@ Areas areas_of(const ModelBuilder& model, bool is_opaque = true, const PrepareRu
   return areas;
 }
 
-constexpr double rounding_m2 = 1e-6, floor_m2 = 48, walls_of_storey_m2 = 84;
+constexpr double house_rounding_m2 = 1e-6, floor_m2 = 48, walls_of_storey_m2 = 84;
 
 TEST(InnerFaces, AreSlabsBetweenStoreys) {
   const PreparedMesh p = house_of(storeys(3)).prepared();
   EXPECT_EQ(std::ranges::count(inner_faces(p.mesh), 1), 4);  // two slabs of two triangles
   EXPECT_EQ(p.report.closed_bodies, 1u);
-  EXPECT_NEAR(p.report.volume_m3, 3 * 3 * floor_m2, rounding_m2);
+  EXPECT_NEAR(p.report.volume_m3, 3 * 3 * floor_m2, house_rounding_m2);
   const Areas areas = areas_of(house_of(storeys(3)));
-  EXPECT_NEAR(areas.open, 3 * walls_of_storey_m2 + 2 * floor_m2, rounding_m2);
-  EXPECT_NEAR(areas.covered, 2 * floor_m2, rounding_m2);
+  EXPECT_NEAR(areas.open, 3 * walls_of_storey_m2 + 2 * floor_m2, house_rounding_m2);
+  EXPECT_NEAR(areas.covered, 2 * floor_m2, house_rounding_m2);
 }
 
 TEST(InnerFaces, AreFoundHoweverFacesAreTurned) {
@@ -67,8 +67,8 @@ TEST(InnerFaces, AreFoundHoweverFacesAreTurned) {
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (choice >> f & 1u) turned[f] = reversed(faces[f]);
     const Areas areas = areas_of(house_of(turned));
-    EXPECT_NEAR(areas.open, 2 * walls_of_storey_m2 + 2 * floor_m2, rounding_m2) << choice;
-    EXPECT_NEAR(areas.covered, floor_m2, rounding_m2) << choice;
+    EXPECT_NEAR(areas.open, 2 * walls_of_storey_m2 + 2 * floor_m2, house_rounding_m2) << choice;
+    EXPECT_NEAR(areas.covered, floor_m2, house_rounding_m2) << choice;
   }
 }
 
@@ -77,7 +77,7 @@ TEST(InnerFaces, AreFoundWhereverTheHouseStands) {
     const double c = std::cos(radians(turn_deg)), s = std::sin(radians(turn_deg));
     auto house = house_of(storeys(3));
     house.moved([&](Vec3 p) { return Vec3{c * p.x - s * p.y + 300, s * p.x + c * p.y, p.z + 7}; });
-    EXPECT_NEAR(areas_of(house).covered, 2 * floor_m2, rounding_m2) << turn_deg;
+    EXPECT_NEAR(areas_of(house).covered, 2 * floor_m2, house_rounding_m2) << turn_deg;
   }
 }
 
@@ -95,8 +95,8 @@ TEST(InnerFaces, AreThePartOfAPartyWallThatBothHousesHave) {
   rules.repair = Repair::all;
   const PreparedMesh p = house_of(faces).prepared(rules);
   EXPECT_EQ(p.report.closed_bodies, 1u);
-  EXPECT_NEAR(p.report.volume_m3, 8 * 6 * 9 + 6 * 6 * 5, rounding_m2);
-  EXPECT_NEAR(areas_of(house_of(faces), true, rules).covered, 6 * 5, rounding_m2);
+  EXPECT_NEAR(p.report.volume_m3, 8 * 6 * 9 + 6 * 6 * 5, house_rounding_m2);
+  EXPECT_NEAR(areas_of(house_of(faces), true, rules).covered, 6 * 5, house_rounding_m2);
 }
 
 TEST(InnerFaces, AreNoneWhereLightGetsIn) {
@@ -104,7 +104,7 @@ TEST(InnerFaces, AreNoneWhereLightGetsIn) {
   Faces faces = storeys(2);
   faces.pop_back();
   EXPECT_EQ(std::ranges::count(inner_faces(house_of(faces).prepared().mesh), 1), 0);
-  EXPECT_NEAR(areas_of(house_of(faces)).covered, 0, rounding_m2);
+  EXPECT_NEAR(areas_of(house_of(faces)).covered, 0, house_rounding_m2);
 }
 
 TEST(InnerFaces, AreNoSheetsThatStandOnABody) {
@@ -115,7 +115,7 @@ TEST(InnerFaces, AreNoSheetsThatStandOnABody) {
 }
 
 TEST(InnerFaces, AreSeenThroughWhatIsNotOpaque) {
-  EXPECT_NEAR(areas_of(house_of(storeys(3)), false).covered, 0, rounding_m2);
+  EXPECT_NEAR(areas_of(house_of(storeys(3)), false).covered, 0, house_rounding_m2);
 }
 
 TEST(InnerFaces, AreAskedOfOneObjectAtATime) {
