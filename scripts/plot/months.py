@@ -4,8 +4,9 @@
 """Monthly light load of facades, patches or sensors as bars, divided into its parts.
 
 Months are those of civil time. Bars are sums of the series over the intervals
-that the study has: months that it covers only in part are marked. Where a
-result has no such series its stored totals of months are drawn
+that the study has: months that it covers only in part are marked, and titles
+have the sums of all. A few hours that reach into one more month have no bar, and
+are told. Where a result has no such series its stored totals of months are drawn
 (output.totals), direct light apart. Whiskers: 95 % confidence of the month,
 where the result has errors of months."""
 
@@ -51,6 +52,8 @@ def month_span(result, month):
 # What the stored parts leave of the whole below this share of it is rounding of floats.
 ROUNDING_SHARE = 1e-4
 REST = "other parts, not stored"
+# Of the hours of the other months: a year in UTC reaches 14 hours into another one by the clock.
+STRAY_SHARE = 0.02
 
 
 def parts_of(result, quantity, targets, hours):
@@ -111,6 +114,7 @@ def draw(result, arguments):
 
     drawn = months_worth_a_bar(hours)
     table = rows(months, hours, targets, parts, sums)  # all of them
+    totals, note = sums.sum(axis=(0, 1)), words_of_stray(months, hours, drawn)
     months, hours, sums = [months[m] for m in drawn], hours[drawn], sums[:, drawn]
     whiskers = None if whiskers is None else whiskers[drawn]
 
@@ -128,7 +132,7 @@ def draw(result, arguments):
         if whiskers is not None:
             axes.errorbar(range(len(months)), sums[:, :, k].sum(axis=0), whiskers[:, k], fmt="none", ecolor="black",
                           elinewidth=0.8, capsize=2)
-        axes.set_title(f"{drawing.shortened(targets[k].label, 80) if across == 1 else drawing.shortened(targets[k].name, 32)}: {sums[:, :, k].sum():.4g} {units}")
+        axes.set_title(f"{drawing.shortened(targets[k].label, 80) if across == 1 else drawing.shortened(targets[k].name, 32)}: {totals[k]:.4g} {units}")
     # One scale for all panels, which the highest bar of all decides.
     tops = sums.sum(axis=0) + (0 if whiskers is None else np.nan_to_num(whiskers))
     grid[0, 0].set_ylim(0, 1.05 * max(np.nanmax(tops), 1e-12))
@@ -137,19 +141,25 @@ def draw(result, arguments):
     if len(parts) > 1:
         handles, labels = grid[0, 0].get_legend_handles_labels()
         grid[0, -1].legend(handles[::-1], labels[::-1], loc="upper left", bbox_to_anchor=(1, 1))
-    note = "" if all(is_whole) else "; * only part of the month is in the study"
+    note = ("" if all(is_whole) else "; * only part of the month is in the study") + note
     drawing.heading(figure, result, f"{load_words(quantity)} by civil month, {result.zone_name}{note}")
     return figure, table
 
 
 def months_worth_a_bar(hours):
-    """All but a first or last one of which a day or less is there, as of the hour in which a year of standard time reaches
+    """All but a first or last one that is a stray rest of the others, as the hour in which a year of standard time reaches
     into the next one of the clock."""
-    of_month = np.array([of.sum() for of in hours])
-    at_an_end = np.full(len(of_month), False)
+    of_month = hours.sum(axis=1)
+    is_stray = np.full(len(of_month), False)
     if len(of_month) > 2:
-        at_an_end[[0, -1]] = True
-    return np.flatnonzero(~(at_an_end & (of_month <= 24)))
+        is_stray[[0, -1]] = of_month[[0, -1]] < STRAY_SHARE * np.median(of_month)
+    return np.flatnonzero(~is_stray)
+
+
+def words_of_stray(months, hours, drawn):
+    """What has no bar is told."""
+    strays = [f"{hours[m].sum():.3g} h of {year}-{month:02}" for m, (year, month) in enumerate(months) if m not in drawn]
+    return f"; without a bar, but in the sums: {', '.join(strays)}" if strays else ""
 
 
 def load_words(quantity):

@@ -9,6 +9,7 @@ plots_test.py SUNLOAD SOURCE_FOLDER
 import base64
 import csv
 import io
+import json
 import os
 import re
 import runpy
@@ -180,6 +181,51 @@ def test_months(plots, path, result):
         mine = [row for row in rows if row["target"] == name]
         close(column(mine, "sum").sum(), result["facade_light_load"][k], 1e-5)
         close(column(mine, "irradiance_sky").sum(), facade_means(result, "light_load_sky", k), 1e-5)
+
+
+def run_study(sunload, folder, name, text):
+    """Path of the result of a study's variant baseline."""
+    with open(os.path.join(folder, f"{name}.yaml"), "w", encoding="utf-8") as file:
+        file.write(text)
+    ran = subprocess.run([sunload, "run", f"{name}.yaml"], cwd=folder, stderr=subprocess.PIPE, text=True)
+    assert ran.returncode == 0, ran.stderr
+    return os.path.join(folder, f"results/{name}/baseline.h5")
+
+
+def drawn(script, path, **chosen):
+    """The figure of a script, and its heading."""
+    import importlib
+    from types import SimpleNamespace
+
+    import reading
+    arguments = {"facade": [], "patch": [], "sensor": [], "quantity": None, "time": None, "colour": "false", "max": None,
+                 "step": "auto", **chosen}
+    figure, _ = importlib.import_module(script).draw(reading.Result(path), SimpleNamespace(**arguments))
+    return figure, figure._suptitle.get_text()
+
+
+def test_months_of_days(sunload, folder):
+    """A day of each month: all have bars, and titles the whole load."""
+    import months
+    days = [f"2026-{month:02}-21" for month in range(1, 13)]
+    path = run_study(sunload, folder, "days", STUDY[:STUDY.index("variants")].replace("name: square", "name: days")
+                     .replace("2026-03-21, 2026-06-21", ", ".join(days)))
+    figure, heading = drawn("months", path)
+    told = json.loads(subprocess.run([sunload, "info", path, "--facades", "--json"], stdout=subprocess.PIPE, text=True,
+                                     check=True).stdout)
+    loads = {row["name"]: row["light_load_kwh_m2"] for row in told["rows"]}
+    panels = [axes for axes in figure.axes if axes.get_title(loc="left")]
+    assert len(panels) == 4
+    for axes in panels:
+        name, _, rest = axes.get_title(loc="left").rpartition(": ")
+        assert len(axes.get_xticks()) == 12, name
+        close(float(rest.split()[0]), loads[name], 1e-3)
+    assert "without a bar" not in heading
+    hours = np.diag([1.0, *[720.0] * 11, 14.0])
+    assert list(months.months_worth_a_bar(hours)) == list(range(1, 12))
+    assert list(months.months_worth_a_bar(np.diag([24.0, 720.0, 720.0]))) == [0, 1, 2]
+    assert months.words_of_stray([(2025, 12), (2026, 1), (2026, 2)], np.diag([1.0, 720.0, 672.0]), [1, 2]) == \
+        "; without a bar, but in the sums: 1 h of 2025-12"
 
 
 def test_months_of_some_parts(plots, sunload, folder):
@@ -401,6 +447,7 @@ def test(sunload, source, folder):
             check(plots, path, result)
             print(f"{check.__name__}: as in the file")
     test_months_of_some_parts(plots, sunload, folder)
+    test_months_of_days(sunload, folder)
     test_facade_map_drawing(path)
     test_compare(plots, sunload, path, other)
     test_report(plots, folder)
