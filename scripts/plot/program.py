@@ -10,12 +10,23 @@ import subprocess
 from reading import InputError
 
 
+# From the folder of these scripts: as built, and as installed (PREFIX/share/sunload/scripts/plot).
+BESIDE = ("../../build/io/sunload", "../../../../bin/sunload")
+NOWHERE = "neither in build/io, nor installed with this script, nor on PATH"
+
+
+def beside():
+    """The program that belongs to these scripts, or None."""
+    folder = os.path.dirname(os.path.realpath(__file__))
+    programs = (os.path.normpath(os.path.join(folder, path)) for path in BESIDE)
+    return next((path for path in programs if os.path.isfile(path) and os.access(path, os.X_OK)), None)
+
+
 class Program:
     """None where it is not found: `path` is empty then."""
 
     def __init__(self, named=None):
-        built = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../build/io/sunload")
-        self.path = named or os.environ.get("SUNLOAD") or (built if os.access(built, os.X_OK) else shutil.which("sunload"))
+        self.path = named or os.environ.get("SUNLOAD") or beside() or shutil.which("sunload")
         self._compared = {}
 
     def run(self, *words):
@@ -31,12 +42,13 @@ class Program:
     def compared(self, base, variant):
         """What `compare --json` tells of two results; it is asked once."""
         if not self.path:
-            raise InputError("the program sunload, which compares what results have in common, is neither in build/io "
-                             "nor on PATH; name it with --sunload")
+            raise InputError(f"the program sunload, which compares what results have in common, is {NOWHERE}; "
+                             "name it with --sunload")
         if (base, variant) not in self._compared:
             self._compared[base, variant] = json.loads(self.run("compare", base, variant, "--json"))
         return self._compared[base, variant]
 
 
 def add_program(p):
-    p.add_argument("--sunload", metavar="PROGRAM", help="the program (default: $SUNLOAD, that of build/io, or that on PATH)")
+    p.add_argument("--sunload", metavar="PROGRAM", help="the program (default: $SUNLOAD, that of build/io or "
+                   "installed with this script, or that on PATH)")

@@ -30,7 +30,7 @@ import months
 import series
 import sun_path
 from drawing import plt
-from program import Program, add_program
+from program import NOWHERE, Program, add_program
 from reading import InputError, Result
 
 # Carpets and months of a few days say nothing that the series does not.
@@ -119,10 +119,10 @@ def percent_changes(program, base, variant):
             if row["difference_percent"] is not None}
 
 
-def drawn_scene(program, path, folder):
-    """A result or a comparison as a figure, pixel by pixel."""
+def drawn_scene(program, path, folder, others=()):
+    """A result or a comparison as a figure, pixel by pixel, on a scale that does for others, too."""
     image = os.path.join(folder, "scene.png")
-    program.run("render", path, "-o", image, "--size", "1400x880")
+    program.run("render", path, "-o", image, "--size", "1400x880", *(["--same-scale", *others] if others else []))
     pixels = plt.imread(image)
     figure = plt.figure(figsize=(pixels.shape[1] / HTML_DPI, pixels.shape[0] / HTML_DPI), constrained_layout=False)
     axes = figure.add_axes([0, 0, 1, 1])
@@ -132,17 +132,18 @@ def drawn_scene(program, path, folder):
 
 
 def scene_pictures(results, program):
-    """The scene with the light load of the base, and what each variant changes."""
+    """The scene with the light load of the base, and what each variant changes, all on one scale."""
     if not program.path:
         return
     base, *variants = results
     with tempfile.TemporaryDirectory(prefix="sunload-report-") as folder:
         yield f"{base.attribute('variant')}: the scene", drawn_scene(program, base.path, folder)
-        for variant in variants:
-            difference = os.path.join(folder, "difference.h5")
+        differences = [os.path.join(folder, f"difference-{k}.h5") for k in range(len(variants))]
+        for variant, difference in zip(variants, differences):
             program.run("compare", base.path, variant.path, "--hdf5", difference)
+        for variant, difference in zip(variants, differences):
             yield (f"{variant.attribute('variant')} minus {base.attribute('variant')}: the difference",
-                   drawn_scene(program, difference, folder))
+                   drawn_scene(program, difference, folder, [other for other in differences if other != difference]))
 
 
 def variant_pictures(results, program):
@@ -264,8 +265,8 @@ def main(argv):
         raise InputError(f"{output}: a report is .html or .pdf")
     program = Program(arguments.sunload)
     if not program.path:
-        print("no pictures of the scene and no comparison: the program sunload is neither in build/io nor on PATH; name it "
-              "with --sunload", file=sys.stderr)
+        print(f"no pictures of the scene and no comparison: the program sunload is {NOWHERE}; name it with --sunload",
+              file=sys.stderr)
     # Aside first: what fails half-way leaves no half report behind.
     with drawing.written_aside(output) as aside:
         if kind == ".html":

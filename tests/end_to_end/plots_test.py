@@ -13,6 +13,7 @@ import json
 import os
 import re
 import runpy
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -338,6 +339,41 @@ def test_report(plots, folder):
     assert data.startswith(b"%PDF") and len(re.findall(rb"/Type /Page\b", data)) == 1 + len(pictures)
 
 
+def test_report_has_one_scale(sunload, path, other):
+    """Each difference is drawn on a scale that does for the others."""
+    import program
+    import report
+    from reading import Result
+
+    class Recorder(program.Program):
+        calls = []
+
+        def run(self, *words):
+            self.calls.append(words)
+            return super().run(*words)
+    names = [name for name, _ in report.scene_pictures([Result(path), Result(other), Result(path)], Recorder(sunload))]
+    drawn_scenes = [words for words in Recorder.calls if words[0] == "render"]
+    assert len(names) == len(drawn_scenes) == 3, names
+    assert "--same-scale" not in drawn_scenes[0]
+    for one, two in (drawn_scenes[1:], drawn_scenes[:0:-1]):
+        assert one[-2:] == ("--same-scale", two[1]) and one[1] != two[1], drawn_scenes
+
+
+def test_program_beside(source, folder):
+    """Installed scripts find the program that was installed with them."""
+    plot, bin_folder = (os.path.join(folder, "prefix", name) for name in ("share/sunload/scripts/plot", "bin"))
+    shutil.copytree(os.path.join(source, "scripts/plot"), plot)
+    os.makedirs(bin_folder)
+    installed = os.path.join(bin_folder, "sunload")
+    with open(installed, "w") as file:
+        file.write("#!/bin/sh\n")
+    os.chmod(installed, 0o755)
+    environment = {name: value for name, value in os.environ.items() if name != "SUNLOAD"}
+    ran = subprocess.run([sys.executable, "-c", "import program; print(program.Program().path)"], env=environment,
+                         cwd=plot, stdout=subprocess.PIPE, text=True, check=True)
+    assert ran.stdout.strip() == os.path.realpath(installed), ran.stdout
+
+
 def test_report_without_series(plots, sunload, folder):
     """The first variant of the study is the base whatever its name, and what needs a series is left out."""
     study = STUDY[:STUDY.index("variants")].replace("name: square", "name: totals") + """output: {series: none}
@@ -451,6 +487,8 @@ def test(sunload, source, folder):
     test_facade_map_drawing(path)
     test_compare(plots, sunload, path, other)
     test_report(plots, folder)
+    test_report_has_one_scale(sunload, path, other)
+    test_program_beside(source, folder)
     test_report_without_series(plots, sunload, folder)
     test_wrong_input(plots, path, folder)
     test_samples(plots, sunload, folder)
