@@ -4,7 +4,7 @@
 """Carpets: a series by day (across) and hour of the civil day (up) in false colour.
 
 One carpet for each facade, patch or sensor; a facade is the area-weighted mean
-of its patches. White lines are sunrise and sunset as the intervals show them."""
+of its patches. White lines are sunrise and sunset."""
 
 import interpreter  # first: finds a Python that has the other packages
 
@@ -13,10 +13,19 @@ import datetime
 import matplotlib.dates as dates
 import numpy as np
 from matplotlib.collections import PolyCollection
+from matplotlib.transforms import ScaledTranslation
 
 import drawing
 from drawing import plt
 from reading import InputError
+
+DAY_S = 86400
+# The sun's centre is seen on the horizon when it stands there: refraction (The Astronomical Almanac: 34').
+RISING_DEG = -34 / 60
+SUN_LINE = {"color": "white", "linewidth": 0.8}
+# Days whose names stand beside each other below a carpet of the whole width.
+MOST_DAYS_NAMED = 24
+TITLE_IN = 0.26
 
 
 def boxes(result, days_of_columns):
@@ -46,16 +55,34 @@ def columns(result):
     return {day: dates.date2num(day) if together else k for k, day in enumerate(days)}, together
 
 
+def sunrise_and_sunset(latitude_deg, time, azimuth_deg, elevation_deg):
+    """When [s] the sun of a day comes up and goes down, from one place of it high above the horizon; NaN where it
+    does not. The declination stays as it is then, which puts neither off by more than some two minutes below the
+    polar circles."""
+    latitude, azimuth, elevation = np.radians([latitude_deg, azimuth_deg, elevation_deg])
+    sine = np.sin(latitude) * np.sin(elevation) + np.cos(latitude) * np.cos(elevation) * np.cos(azimuth)
+    cosine = np.sqrt(1 - sine**2)
+    hour_angle = np.arctan2(-np.sin(azimuth) * np.cos(elevation) * np.cos(latitude), np.sin(elevation) - np.sin(latitude) * sine)
+    half = (np.sin(np.radians(RISING_DEG)) - np.sin(latitude) * sine) / (np.cos(latitude) * cosine)
+    half = np.arccos(half) if abs(half) < 1 else np.nan
+    return [time + (at - hour_angle) * DAY_S / (2 * np.pi) for at in (-half, half)]
+
+
 def sunrise_lines(result, places):
-    """Columns, and the first and last hour with the sun above the horizon; NaN where the day's
-    intervals do not begin or end in the dark."""
+    """Columns, and the hours of sunrise and sunset; NaN where there is none."""
+    highest, latitude = {}, result.attribute("latitude_deg", np.nan)
+    elevation, time = result.numbers("sun_elevation"), result.numbers("time")
+    for k in np.flatnonzero(elevation > 0):
+        day = result.civil(time[k]).date()
+        if elevation[k] > elevation[highest.get(day, k)] or day not in highest:
+            highest[day] = k
     rise, fall = {}, {}
-    is_up, bounds = result.numbers("sun_elevation") > 0, result.bounds()
-    for k in np.flatnonzero(is_up[1:] != is_up[:-1]) + 1:
-        if bounds[k, 0] > bounds[k - 1, 1] + 1:
-            continue
-        at = result.civil(bounds[k, 0])
-        (rise if is_up[k] else fall)[at.date()] = at.hour + at.minute / 60
+    for k in highest.values():
+        for of_day, seconds in zip((rise, fall), sunrise_and_sunset(
+                latitude, time[k], result.numbers("sun_azimuth")[k], elevation[k])):
+            if np.isfinite(seconds):
+                at = result.civil(seconds)
+                of_day[at.date()] = at.hour + at.minute / 60 + at.second / 3600
     days = sorted(places)
     return [places[d] for d in days], np.array([[rise.get(d, np.nan), fall.get(d, np.nan)] for d in days])
 
@@ -90,7 +117,8 @@ def draw(result, arguments):
                                 rasterized=True)
         axes.add_collection(carpet)
         axes.set_title(drawing.shortened(targets[k].label, 90 // across))
-        lay_axes(axes, result, places, together)
+        lay_axes(axes, result, places, together, MOST_DAYS_NAMED // across)
+    lay_key(grid[0, min(across, len(targets)) - 1])
     for axes in grid[:, 0]:
         axes.set_ylabel(f"hour of the day, {result.zone_name}")
     drawing.colour_bar(figure, carpet, grid, result.caption(
@@ -100,7 +128,18 @@ def draw(result, arguments):
     return figure, rows(result, targets, values, quantity)
 
 
-def lay_axes(axes, result, places, together):
+def lay_key(axes):
+    """What the white lines are, where there are any, above the title of the panel at the right."""
+    if not any(np.isfinite(line.get_ydata()).any() for line in axes.lines):
+        return
+    above = ScaledTranslation(0, TITLE_IN, axes.figure.dpi_scale_trans)
+    key = axes.legend([plt.Line2D([], [], **SUN_LINE)], ["sunrise, sunset"], loc="lower right", bbox_to_anchor=(1, 1),
+                      bbox_transform=axes.transAxes + above, borderaxespad=0, fontsize=8, labelcolor="white",
+                      frameon=True, fancybox=False, framealpha=1)
+    key.get_frame().set(facecolor=drawing.palette("false")(0), linewidth=0)
+
+
+def lay_axes(axes, result, places, together, most_named):
     x = np.array(sorted(places.values()))
     axes.tick_params(labelbottom=True)
     axes.set(xlim=(x.min(), x.max() + 1), ylim=(0, 24), yticks=range(0, 25, 3))
@@ -110,16 +149,22 @@ def lay_axes(axes, result, places, together):
             # Near the midnight sun the sun sets at 23:50 one day and at 0:10 the next: no line between.
             for part in np.split(np.arange(len(hours)), np.flatnonzero(np.abs(np.diff(hours)) > 12) + 1):
                 axes.step([*(lines[k] for k in part), lines[part[-1]] + 1], [*hours[part], hours[part[-1]]],
-                          where="post", color="white", linewidth=0.8)
+                          where="post", **SUN_LINE)
         locator = dates.AutoDateLocator(minticks=4, maxticks=12)
         axes.xaxis.set_major_locator(locator)
         axes.xaxis.set_major_formatter(dates.ConciseDateFormatter(locator))
         return
     for column, hours in zip(lines, rise_set):
         for hour in hours:
-            axes.plot([column, column + 1], [hour, hour], color="white", linewidth=0.8)
-    step = -(-len(places) // 14)
-    axes.set_xticks(x[::step] + 0.5, [f"{day:%d %b\n%Y}" for day in sorted(places)][::step])
+            axes.plot([column, column + 1], [hour, hour], **SUN_LINE)
+    step = -(-len(places) // most_named)
+    axes.set_xticks(x[::step] + 0.5, day_words(sorted(places)[::step]), fontsize=8)
+
+
+def day_words(days):
+    """Narrow ones; the year where it is another one."""
+    return [f"{day:%d}\n{day:%b}" + (f"\n{day:%Y}" if k == 0 or day.year != days[k - 1].year else "")
+            for k, day in enumerate(days)]
 
 
 def rows(result, targets, values, quantity):

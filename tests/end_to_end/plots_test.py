@@ -172,6 +172,29 @@ def test_carpet(plots, path, result):
     brightest = [max((row for row in rows if row["day"] == day), key=lambda row: float(row[name]))
                  for day in ("2026-03-21", "2026-06-21")]
     assert all(7 <= float(row["begin_hour"]) <= 11 for row in brightest), brightest
+    assert_sunrise(path, result)
+
+
+def assert_sunrise(path, result):
+    """The sun of an interval stands at the middle of its sunlit part: there are sunrise and sunset at its other end."""
+    figure, _ = drawn("carpet", path, facade=["house/east_1"])
+    lines = sorted({(line.get_xdata()[0], line.get_ydata()[0]) for line in figure.axes[0].lines})
+    midnight = [result["time_bounds"][24 * day, 0] for day in (0, 1)]
+    is_up, time, bounds = result["sun_elevation"][...] > 0, result["time"][...], result["time_bounds"][...]
+    expected = []
+    for day in (0, 1):
+        first, *_, last = [k for k in range(24 * day, 24 * (day + 1)) if is_up[k]]
+        expected += [(day, (2 * time[first] - bounds[first, 1] - midnight[day]) / 3600),
+                     (day, (2 * time[last] - bounds[last, 0] - midnight[day]) / 3600)]
+    assert len(lines) == len(expected) and np.abs(np.array(lines) - expected).max() < 2 / 60, (lines, expected)
+    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["sunrise, sunset"]
+
+
+def assert_labels_apart(axes):
+    """Names below the axis do not touch."""
+    axes.figure.canvas.draw()
+    boxes = [label.get_window_extent() for label in axes.get_xticklabels() if label.get_text()]
+    assert len(boxes) > 3 and all(one.x1 < two.x0 for one, two in zip(boxes, boxes[1:])), boxes
 
 
 def test_months(plots, path, result):
@@ -222,6 +245,7 @@ def test_months_of_days(sunload, folder):
         assert len(axes.get_xticks()) == 12, name
         close(float(rest.split()[0]), loads[name], 1e-3)
     assert "without a bar" not in heading
+    assert_labels_apart(drawn("carpet", path)[0].axes[0])
     hours = np.diag([1.0, *[720.0] * 11, 14.0])
     assert list(months.months_worth_a_bar(hours)) == list(range(1, 12))
     assert list(months.months_worth_a_bar(np.diag([24.0, 720.0, 720.0]))) == [0, 1, 2]
