@@ -169,7 +169,7 @@ def pictures(results, program):
                   for result in results)
     for result in results:
         chosen = SimpleNamespace(facade=[], patch=[], sensor=[], quantity=None, time=None, colour="false", max=None,
-                                 step="auto")
+                                 step="auto", horizon=None)
         name = result.attribute("variant")
         if result.names("facade_name"):
             yield f"{name}: facades", facade_map.draw(

@@ -5,10 +5,12 @@
 
 Plan of the sky: north is up, east is right, the horizon is the circle, the
 zenith its middle (stereographic). Without --facade or --patch it is drawn for
-the facade that receives most of the sun. Every interval of the study is a dot at its
-sun, coloured by what arrives straight from the sun, hollow where nothing does;
-the sun is behind the surface in the grey part. For a facade the colour is the
-share of its area in the sun."""
+the facade that receives most of the sun (most light, where none is in the sun).
+Every interval of the study is a dot at its sun, coloured by what arrives straight
+from the sun, hollow where nothing does; the sun is behind the surface in the grey
+part. For a facade the colour is the share of its area in the sun. The far hills of
+the study (site.horizon) are brown: their file is looked for where the study lay, two
+folders above the result, or is named with --horizon."""
 
 import interpreter  # first: finds a Python that has the other packages
 
@@ -16,6 +18,7 @@ import numpy as np
 
 import drawing
 from drawing import plt
+from hills import hills_of
 from reading import InputError
 
 MOST_DAYS_JOINED = 12
@@ -25,6 +28,8 @@ LONGEST_STEP_S = 3700
 LEAST_COSINE = 1e-4
 # Between the highest suns of two days: numbers of their hours would lie on each other.
 LEAST_DEGREES_BETWEEN_LABELS = 6
+# Those of `sunload sun --image`.
+HILLS_COLOUR, HILLS_LINE = (0.87, 0.85, 0.80), (0.45, 0.38, 0.28)
 
 
 def place(azimuth_deg, elevation_deg):
@@ -104,6 +109,14 @@ def shade_behind(axes, result, normal):
                 interpolation="nearest")
 
 
+def draw_hills(axes, hills):
+    """From the horizon up to their line."""
+    azimuth = np.arange(0, 360.25, 0.5)
+    foot, top = place(azimuth, np.zeros_like(azimuth)), place(azimuth, np.maximum(hills.at(azimuth), 0))
+    axes.fill(*(np.append(outer, inner[::-1]) for outer, inner in zip(foot, top)), color=HILLS_COLOUR, linewidth=0, zorder=0.5)
+    axes.plot(*top, color=HILLS_LINE, linewidth=1, zorder=1.5)
+
+
 def draw_paths(axes, result, days, elevation, xy):
     """Joins the suns of a day (few days), or those of the same hour of UTC (many days)."""
     keys = days
@@ -151,29 +164,50 @@ def label_hours(axes, result, days):
 
 
 def sunniest_facade(result):
-    """The facade that receives most energy straight from the sun (any light, where that is not known)."""
-    load = "light_load_direct" if result.has("light_load_direct") else "light_load"
-    facade, energy = result.numbers("patch_facade"), result.numbers(load) * result.numbers("patch_area")
-    sums = np.bincount(np.maximum(facade, 0), np.where(facade >= 0, energy, 0), len(result.names("facade_name")))
-    return int(np.argmax(sums))
+    """The facade that receives most energy straight from the sun, or of all light where none is in the sun; and why."""
+    facade, area = result.numbers("patch_facade"), result.numbers("patch_area")
+    for load, why in (("light_load_direct", "most sun"), ("light_load", "most light")):
+        if result.has(load):
+            energy = np.where(facade >= 0, result.numbers(load) * area, 0)
+            sums = np.bincount(np.maximum(facade, 0), energy, len(result.names("facade_name")))
+            if sums.max() > 0:
+                break
+    return int(np.argmax(sums)), f"of {len(sums)} facades the one with {why}" if len(sums) > 1 else ""
 
 
 def chosen_target(result, arguments):
+    """What is drawn, and why it, where nobody chose it."""
     if len(arguments.facade) + len(arguments.patch) > 1:
         raise InputError("one facade or one patch at a time: call the script once for each")
     if not arguments.facade + arguments.patch and result.names("facade_name"):
-        return result.facade(sunniest_facade(result))
+        facade, why = sunniest_facade(result)
+        return result.facade(facade), why
     found = result.targets(arguments.facade, arguments.patch, most=1)
     if len(found) > 1:
         raise InputError(f"{result.path}: {arguments.facade[0]} matches {len(found)} facades; name one")
-    return found[0]
+    return found[0], ""
+
+
+def draw_suns(axes, xy, is_up, is_hidden, share, shown, largest):
+    """A dot of each; those that are coloured."""
+    size = 42 if is_up.sum() < 300 else 16
+    unlit = is_up & (share == 0) & ~is_hidden
+    for those, face, edge, word in ((unlit, "white", "#555555", "no direct sun"),
+                                    (is_hidden, HILLS_COLOUR, HILLS_LINE, "behind far hills")):
+        if those.any():
+            axes.scatter(xy[0][those], xy[1][those], s=size * 0.6, facecolors=face, edgecolors=edge, linewidths=0.7,
+                         zorder=3, label=word)
+    lit = is_up & (share > 0)
+    return axes.scatter(xy[0][lit], xy[1][lit], c=shown[lit], s=size, cmap=drawing.palette("false"), vmin=0,
+                        vmax=largest, edgecolors="black", linewidths=0.3, zorder=4, label="in the sun" if lit.any() else None)
 
 
 def draw(result, arguments):
     if result.series_step:
         raise InputError(f"{result.path}: its series are means over steps: {result.series_step}, for which no one sun "
                          "stands; run the study with output.series_step: interval")
-    target = chosen_target(result, arguments)
+    target, why = chosen_target(result, arguments)
+    hills, lacking = hills_of(result, arguments.horizon)
     azimuth, elevation = result.numbers("sun_azimuth"), result.numbers("sun_elevation")
     is_up = elevation > 0
     if not is_up.any():
@@ -188,12 +222,11 @@ def draw(result, arguments):
     normal = normal_of(result, target)
     if normal is not None:
         shade_behind(axes, result, normal)
-    lit, size = is_up & (share > 0), 42 if is_up.sum() < 300 else 16
-    axes.scatter(xy[0][is_up & (share == 0)], xy[1][is_up & (share == 0)], s=size * 0.6, facecolors="white",
-                 edgecolors="#555555", linewidths=0.7, zorder=3, label="no direct sun")
+    if hills:
+        draw_hills(axes, hills)
+    lit, is_hidden = is_up & (share > 0), hills.hide(azimuth, elevation) if hills else np.zeros_like(is_up)
     largest = drawing.rounded_up(np.nanmax(shown[lit])) if lit.any() and is_patch else 100.0
-    dots = axes.scatter(xy[0][lit], xy[1][lit], c=shown[lit], s=size, cmap=drawing.palette("false"), vmin=0,
-                        vmax=largest, edgecolors="black", linewidths=0.3, zorder=4, label="in the sun")
+    dots = draw_suns(axes, xy, is_up, is_hidden & ~lit, share, shown, largest)
     if not result.is_synthetic:
         days = [result.civil(s).date() for s in result.numbers("time")]
         draw_paths(axes, result, days, elevation, xy)
@@ -201,17 +234,18 @@ def draw(result, arguments):
     figure.colorbar(dots, ax=axes, shrink=0.7, aspect=30,
                     label=result.caption(direct_series(result)) if is_patch else "area in the sun [%]")
     axes.legend(loc="lower left", fontsize=8)
-    drawing.heading(figure, result, heading_words(result, target, share, is_up))
+    drawing.heading(figure, result, heading_words(result, target, why, is_up, is_hidden if hills else None, lacking))
     return figure, rows(result, target, shown, share)
 
 
-def heading_words(result, target, share, is_up):
+def heading_words(result, target, why, is_up, is_hidden, lacking):
     hours = result.hours()
     lit = np.average(result.numbers("sun_hours")[target.patches], weights=target.area)
     clock = "" if result.is_synthetic else f"; hours: {result.offsets()}"
-    return (f"{target.label}\n{result.period()}\n"
-            f"{lit:.4g} h in the sun, which is up in intervals of {hours[is_up].sum():.4g} h\n"
-            f"plan of the sky, stereographic; grey: behind the surface{clock}")
+    above = "" if is_hidden is None else f", above the far hills in those of {hours[is_up & ~is_hidden].sum():.4g} h"
+    return (f"{target.label}{': ' if why else ''}{why}\n{result.period()}\n"
+            f"{lit:.4g} h in the sun, which is up in intervals of {hours[is_up].sum():.4g} h{above}\n"
+            f"plan of the sky, stereographic; grey: behind the surface{clock}" + (f"\n{lacking}" if lacking else ""))
 
 
 def rows(result, target, shown, share):
@@ -225,6 +259,7 @@ def rows(result, target, shown, share):
 def main(argv):
     p = drawing.parser(__doc__)
     drawing.add_targets(p, sensors=False)
+    p.add_argument("--horizon", metavar="FILE", help="line of far hills (default: that of the study, where it is found)")
     drawing.draw_one(p.parse_args(argv), "sun_path", draw)
 
 

@@ -223,7 +223,7 @@ def drawn(script, path, **chosen):
 
     import reading
     arguments = {"facade": [], "patch": [], "sensor": [], "quantity": None, "time": None, "colour": "false", "max": None,
-                 "step": "auto", **chosen}
+                 "step": "auto", "horizon": None, **chosen}
     figure, _ = importlib.import_module(script).draw(reading.Result(path), SimpleNamespace(**arguments))
     return figure, figure._suptitle.get_text()
 
@@ -289,6 +289,39 @@ def test_sun_path(plots, path, result):
     lit, elevation = column(rows, "lit_share") > 0.5, column(rows, "elevation_deg")
     bearing = np.cos(np.radians(column(rows, "azimuth_deg") - 110))
     assert lit.sum() > 5 and (bearing[lit] > 0).all() and not lit[elevation < 0].any()
+
+
+HILLS = "azimuth_deg,elevation_deg\n0,5\n90,25\n180,12\n270,10\n"
+
+
+def test_sun_path_with_hills(plots, sunload, folder):
+    """Hills are those of the study's file; suns behind them are told apart."""
+    import hills
+    with open(os.path.join(folder, "hills.csv"), "w") as file:
+        file.write(HILLS)
+    text = STUDY[:STUDY.index("variants")].replace("name: square", "name: hills").replace("2026-03-21, 2026-06-21", "2026-12-21") \
+        .replace("north_deg: 20", "north_deg: 20, horizon: hills.csv  # of the town\n ")
+    path = run_study(sunload, folder, "hills", text)
+    figure, heading = drawn("sun_path", path)
+    with h5py.File(path, "r") as result:
+        azimuth, elevation = result["sun_azimuth"][...], result["sun_elevation"][...]
+        assert hills.name_in(result["study_yaml"][()].decode()) == "hills.csv"
+    is_hidden = (elevation > 0) & (elevation <= np.interp(azimuth, [0, 90, 180, 270, 360], [5, 25, 12, 10, 5]))
+    dots = {dots.get_label(): len(dots.get_offsets()) for dots in figure.axes[0].collections}
+    assert 0 < is_hidden.sum() < (elevation > 0).sum() and dots["behind far hills"] == is_hidden.sum(), dots
+    assert f"above the far hills in those of {(elevation > 0).sum() - is_hidden.sum()} h" in heading, heading
+    assert "house/south_1" in heading and "of 4 facades the one with most sun" in heading, heading
+    # As PVGIS writes them, from south; and nowhere.
+    with open(os.path.join(folder, "hills.csv"), "w") as file:
+        file.write("Latitude: 49.7\n\nA\tH_hor\n-180\t5\n-90\t25\n0\t12\n90\t10\n\nA: Azimuth\n")
+    close(hills.read_hills(os.path.join(folder, "hills.csv")).at([0, 45, 90, 180, 270, 315]), [5, 15, 25, 12, 10, 7.5])
+    plots.rows("sun_path", path, "--horizon", "hills.csv")
+    os.remove(os.path.join(folder, "hills.csv"))
+    assert "far hills are not drawn: hills.csv is not found" in drawn("sun_path", path)[1]
+    dark = run_study(sunload, folder, "dark", text.replace("name: hills", "name: dark").replace(", horizon: hills.csv", "")
+                     .replace("source: clear_sky", "source: fixed, dni_w_m2: 0, dhi_w_m2: 100"))
+    assert "of 4 facades the one with most light" in drawn("sun_path", dark)[1]
+    assert drawn("sun_path", dark, facade=["house/north_1"])[1].count("facades") == 0
 
 
 def test_compare(plots, sunload, path, other):
@@ -509,6 +542,7 @@ def test(sunload, source, folder):
     test_months_of_some_parts(plots, sunload, folder)
     test_months_of_days(sunload, folder)
     test_facade_map_drawing(path)
+    test_sun_path_with_hills(plots, sunload, folder)
     test_compare(plots, sunload, path, other)
     test_report(plots, folder)
     test_report_has_one_scale(sunload, path, other)
