@@ -23,6 +23,10 @@ from reading import InputError, Result
 
 # More of them would make a picture that no reader of PNG opens.
 MOST_GROUPS = 400
+# Of names beside the bars and of results: longer ones would leave the bars no room.
+NAME_LETTERS = 30
+# Higher pictures have their numbers above, too.
+TALL_IN = 8
 
 
 class Groups:
@@ -135,16 +139,26 @@ def draw(results, arguments, program):
         if k > 0:
             right.barh(y, [differences[k - 1].number(name, "difference") for name in names],
                        xerr=[differences[k - 1].whisker(name) for name in names], **look)
-    left.set_yticks(range(len(names)), names)
+    left.set_yticks(range(len(names)), [drawing.shortened(name, NAME_LETTERS) for name in names])
     left.set_ylim(len(names) - 0.4, -0.6)
-    left.set_xlabel(f"light load [{results[0].units('light_load')}]")
-    right.set_xlabel(f"difference to {base.result.attribute('variant')} where both are [{units.pop()}]")
     right.axvline(0, color="black", linewidth=0.8)
-    for axes in (left, right):
-        axes.grid(True, axis="x")
+    unit = units.pop()
+    name_axis(left, f"light load\n[{unit}]")
+    name_axis(right, f"difference to {drawing.shortened(base.result.attribute('variant'), NAME_LETTERS)}\n"
+                     f"where both are [{unit}]")
     right.legend(*left.get_legend_handles_labels(), loc="upper left", bbox_to_anchor=(1, 1))
     drawing.heading(figure, results[0], heading_words(base, differences, len(names), of_all, arguments))
     return figure, rows(differences, names)
+
+
+def name_axis(axes, words):
+    """Below, and of tall pictures above, where they are looked at first."""
+    axes.grid(True, axis="x")
+    axes.set_xlabel(words)
+    axes.xaxis.get_major_locator().set_params(nbins=6)
+    if axes.figure.get_figheight() > TALL_IN:
+        axes.tick_params(top=True, labeltop=True)
+        axes.set_title(words, loc="center", fontsize=9)
 
 
 def bar_look(k):
@@ -172,7 +186,7 @@ def have_one_period(results):
 
 def legend_words(results):
     """Variants, with their periods where these are not the same."""
-    names = [result.attribute("variant") for result in results]
+    names = [drawing.shortened(result.attribute("variant"), NAME_LETTERS) for result in results]
     return names if have_one_period(results) else \
         [f"{name}\n{result.period()}" for name, result in zip(names, results)]
 

@@ -10,6 +10,7 @@ import os
 import shutil
 import signal
 import sys
+import textwrap
 
 import matplotlib
 
@@ -31,6 +32,8 @@ NO_DATA = "#c9c9c9"
 CONFIDENCE = 0.95
 # Scales end where this share of the area lies below, as those of `sunload render` do.
 SCALE_SHARE = 0.995
+# Of headings, on the average of their letters.
+HEADING_LETTERS_PER_IN = 12.5
 
 plt.rcParams.update({
     "font.size": 9, "axes.titlesize": 10, "axes.titlelocation": "left", "figure.titlesize": 12,
@@ -98,7 +101,9 @@ def colour_bar(figure, mappable, axes, caption, values, end):
 
 
 def heading(figure, result, text):
-    figure.suptitle(f"{result.title}\n{text}", x=0.01, ha="left", fontsize=10.5, linespacing=1.4)
+    letters = int(HEADING_LETTERS_PER_IN * figure.get_figwidth())
+    lines = [part for line in f"{result.title}\n{text}".split("\n") for part in textwrap.wrap(line, letters) or [""]]
+    figure.suptitle("\n".join(lines), x=0.01, ha="left", fontsize=10.5, linespacing=1.4)
 
 
 def shortened(name, letters):

@@ -5,7 +5,8 @@
 
 Every facade is drawn as seen from outside, upright and to scale, those of one
 object side by side in the order in which one walks around it. Without --facade
-the largest ones are drawn."""
+the largest ones are drawn, but none of less than a fiftieth of the largest one
+(chimneys and dormers)."""
 
 import interpreter  # first: finds a Python that has the other packages
 
@@ -17,9 +18,15 @@ from drawing import plt
 from reading import InputError, compass
 
 MOST_FACADES = 24
+# Of the largest facade: smaller ones are drawn where they are named.
+LEAST_AREA_SHARE = 0.02
 GAP_M = 1.5
 WIDTH_IN = 11.0
-LABEL_LETTERS = 17
+LABEL_LETTERS = 20
+# The height of the picture without its heading, and steps to a smaller scale until it is kept.
+TALLEST_IN, SCALE_STEP = 13.0, 1.1
+# Of its rectangle a facade with openings, gables or covered parts leaves more than this.
+FULL_SHARE = 0.999
 
 
 def seen_from_outside(vertices, normal):
@@ -62,7 +69,7 @@ def walking_order(panel):
 def laid_out(panels, width, letter_m):
     """Lower left corners of the panels in rows of a width [m]; the height of all."""
     places, row, x, y, tops = [], 0, 0.0, 0.0, []
-    label_width, label_height = LABEL_LETTERS * letter_m, 6.2 * letter_m
+    label_width, label_height = LABEL_LETTERS * letter_m, 7.0 * letter_m
     for k, panel in enumerate(panels):
         wide = max(panel.width, label_width)
         if x > 0 and (x + wide > width or panel.owner != panels[k - 1].owner and x + wide > 0.6 * width):
@@ -80,30 +87,53 @@ def laid_out(panels, width, letter_m):
     return [(x, starts[row]) for x, row in places], y
 
 
+def facades_by_area(result):
+    """The largest, without those that are small beside them."""
+    largest = result.largest_facades(MOST_FACADES)
+    area = result.numbers("facade_area") if largest else []
+    return [i for i in largest if area[i] >= LEAST_AREA_SHARE * max(area)]
+
+
+def letter_size(width):
+    """Of the labels, 7 points high, in a picture of a width [m]."""
+    return width / (WIDTH_IN * 0.86 * 72 / 4.2)
+
+
+def inches_high(width, height):
+    return WIDTH_IN * 0.86 * height / (width + 2 * letter_size(width))
+
+
+def scale_of(panels):
+    """Width [m] of the picture: about three quarters as high as wide, and never too high, as of towers."""
+    area = sum((max(p.width, 5) + GAP_M) * (p.height + 4) for p in panels)
+    width = max(max(p.width for p in panels), min(np.sqrt(area / 0.7), sum(p.width + GAP_M for p in panels)), 12)
+    while inches_high(width, laid_out(panels, width, letter_size(width))[1]) > TALLEST_IN:
+        width *= SCALE_STEP
+    return width
+
+
 def draw(result, arguments):
     quantity = arguments.quantity
     interval = result.interval_at(arguments.time) if arguments.time else None
     values = result.per_patch(quantity, interval)
-    chosen = result.facades_named(arguments.facade) if arguments.facade else result.largest_facades(MOST_FACADES)
+    chosen = result.facades_named(arguments.facade) if arguments.facade else facades_by_area(result)
     if not chosen:
         raise InputError(f"{result.path}: has no facades (no upright faces); draw it with `sunload render`")
     panels = sorted((Panel(result, i, values) for i in chosen), key=walking_order)
 
-    # As many metres across as make a picture about three quarters as high as wide.
-    area = sum((max(p.width, 5) + GAP_M) * (p.height + 4) for p in panels)
-    width = max(max(p.width for p in panels), min(np.sqrt(area / 0.7), sum(p.width + GAP_M for p in panels)), 12)
-    letter_m = width / (WIDTH_IN * 0.86 * 72 / 4.2)   # of the labels, 7 points high
+    width = scale_of(panels)
+    letter_m = letter_size(width)
     places, height = laid_out(panels, width, letter_m)
 
     drawn_area = np.concatenate([p.facade.area for p in panels])
     drawn = np.concatenate([p.values for p in panels])
     end = drawing.scale_end(drawn, drawn_area, arguments.max)
-    tall = min(max(WIDTH_IN * 0.86 * height / (width + 2 * letter_m) + 0.9, 3.0), 30.0)
+    tall = max(inches_high(width, height) + 0.9, 3.0)
     figure, axes = plt.subplots(figsize=(WIDTH_IN, tall))
     collection = PolyCollection(
         np.concatenate([p.triangles[p.order] + np.array(place) for p, place in zip(panels, places)]),
         array=np.ma.masked_invalid(np.concatenate([p.values[p.order] for p in panels])),
-        cmap=drawing.palette(arguments.colour), clim=(0, end), antialiased=False, linewidths=0, rasterized=True)
+        cmap=drawing.palette(arguments.colour), clim=(0, end), antialiased=False, linewidths=0, rasterized=True, snap=False)
     axes.add_collection(collection)
     for panel, (x, y) in zip(panels, places):
         letters = int(max(panel.width / letter_m, LABEL_LETTERS))
@@ -112,17 +142,20 @@ def draw(result, arguments):
     axes.axis("off")
     scale_bar(axes, width, -height - 1.5 * letter_m, letter_m)
     drawing.colour_bar(figure, collection, axes, result.caption(quantity), drawn, end)
-    drawing.heading(figure, result, heading_words(result, quantity, interval, len(panels)))
+    drawing.heading(figure, result, heading_words(result, quantity, interval, panels))
     return figure, rows(panels, quantity, result)
 
 
-def heading_words(result, quantity, interval, count):
+def heading_words(result, quantity, interval, panels):
     is_series = result.dims(quantity)[0] == "time"
     shown = result.brightest() if interval is None else interval
     when = result.interval_words(shown) if is_series else result.period()
     of_all = len(result.names("facade_name"))
-    which = "" if count == of_all else f"; {count} of {of_all} facades"
-    return f"{quantity.replace('_', ' ')}, {when}{which}; seen from outside, to scale"
+    which = "" if len(panels) == of_all else f"; {len(panels)} of {of_all} facades"
+    has_gaps = any(p.facade.area.sum() < FULL_SHARE * p.width * p.height for p in panels)
+    gaps = "; white between its parts: openings, roofs, and what is covered" if has_gaps else ""
+    unknown = "; grey: not computed" if any(np.isnan(p.values).any() for p in panels) else ""
+    return f"{quantity.replace('_', ' ')}, {when}{which}; seen from outside, to scale{gaps}{unknown}"
 
 
 def scale_bar(axes, width, y, letter_m):

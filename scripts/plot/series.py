@@ -22,6 +22,8 @@ MOST_DAYS_OF_INTERVALS = 14
 DAY_S = 86400
 # Days further apart are not joined by a line: nothing is known of those between.
 MOST_DAYS_JOINED = 7
+# Of names beside the plot: longer ones would leave it no room.
+LABEL_LETTERS = 40
 
 
 def runs_of_time(bounds):
@@ -104,7 +106,7 @@ def draw_piece(axes, result, targets, bounds, values, is_daily, most_ticks):
         edges = np.arange(len(bounds) + 1) + 0.5
     for k, target in enumerate(targets):
         style = {"color": drawing.LINE_COLOURS[k % 8], "linestyle": drawing.LINE_STYLES[k // 8 % 4],
-                 "linewidth": 1.4, "label": target.label}
+                 "linewidth": 1.4, "label": drawing.shortened(target.label, LABEL_LETTERS)}
         if is_daily:   # days without intervals in between: points joined, no steps
             days, of_days = torn_apart(bounds.mean(axis=1) / DAY_S, values[:, k])
             axes.plot(days, of_days, marker="." if len(bounds) < 60 else "", **style)

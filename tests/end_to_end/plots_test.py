@@ -150,6 +150,69 @@ def test_facade_map_drawing(path):
         close(drawn[nearest], line[6])
 
 
+def box(first, low, high):
+    """Faces of a box as OBJ, without a floor; `first`: number of its first vertex."""
+    corners = [(x, y, z) for z in (low[2], high[2]) for x, y in
+               ((low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1]))]
+    faces = [(0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7), (4, 5, 6, 7)]
+    return "".join(f"v {x} {y} {z}\n" for x, y, z in corners) + \
+        "".join("f " + " ".join(str(first + k) for k in face) + "\n" for face in faces)
+
+
+def test_facade_map_of_tower(sunload, folder):
+    """No picture is higher than readers open, labels stand apart, and what is small is left to who asks for it."""
+    with open(os.path.join(folder, "tower.obj"), "w") as file:
+        file.write("o tower\nusemtl plaster\n" + box(1, (0, 0, 0), (9, 9, 600)) + "o shed\n" + box(9, (30, 0, 0), (33, 3, 3))
+                   + "o step\n" + box(17, (60, 0, 0), (90, 20, 100)) + box(25, (60, 0, 100), (75, 20, 200)))
+    study = STUDY[:STUDY.index("variants")].replace("name: square", "name: tower").replace("square.obj", "tower.obj") \
+        .replace("days: [2026-03-21, 2026-06-21], step_min: 60", "instants: [2026-06-21T09:00]") \
+        .replace("paving: {diffuse: 0.3}, ", "").replace(", glass: {diffuse: 0.05, mirror: 0.85}", "").replace("edge_m: 3", "edge_m: 40")
+    path = run_study(sunload, folder, "tower", study)
+    figure, heading = drawn("facade_map", path, quantity="light_load")
+    axes = figure.axes[0]
+    assert figure.get_figheight() < 15 and "9 of 13 facades" in heading and "white between its parts" in heading, heading
+    assert not any("shed" in text.get_text() for text in axes.texts)
+    figure.canvas.draw()
+    boxes = [text.get_window_extent() for text in axes.texts]
+    assert not any(one.overlaps(two) for k, one in enumerate(boxes) for two in boxes[:k])
+    figure, heading = drawn("facade_map", path, quantity="light_load", facade=["shed/*"])
+    assert sum("shed" in text.get_text() for text in figure.axes[0].texts) == 4 and "white" not in heading, heading
+
+
+def test_long_names(sunload, path, other):
+    """Names leave the plot its room."""
+    from types import SimpleNamespace
+
+    import compare_bars
+    import drawing
+    import program
+    import reading
+    import series
+    long = "a_name_that_somebody_might_really_give_to_it_because_nobody_said_that_it_should_not_be_long"
+
+    class Named(reading.Result):
+        def attribute(self, name, default=""):
+            return super().attribute(name, default) + (long if name in ("variant", "study") else "")
+
+        def names(self, name):
+            return [f"{long}/{text}" for text in super().names(name)]
+    figure, _ = compare_bars.draw([Named(path), Named(other)], SimpleNamespace(by="surface", group=[]), program.Program(sunload))
+    figure.canvas.draw()
+    left, right = figure.axes
+    assert min(axes.get_window_extent().width for axes in (left, right)) > figure.bbox.width / 5
+    assert not left.xaxis.label.get_window_extent().overlaps(right.xaxis.label.get_window_extent())
+    assert figure._suptitle.get_window_extent().x1 < figure.bbox.width
+    figure, _ = series.draw(Named(path), SimpleNamespace(facade=[], patch=[], sensor=[], quantity=None, step="day"))
+    figure.canvas.draw()
+    assert figure.axes[0].get_window_extent().width > figure.bbox.width / 2
+    # Numbers of tall pictures stand above, too.
+    for high in (4, 40):
+        figure, axes = drawing.plt.subplots(figsize=(11, high))
+        compare_bars.name_axis(axes, "light load")
+        assert axes.get_title(loc="center") == ("light load" if high == 40 else "")
+        assert axes.xaxis.get_major_ticks()[0].label2.get_visible() == (high == 40)
+
+
 def test_series(plots, path, result):
     facade = [name.decode() for name in result["facade_name"][...]].index("house/south_1")
     rows = plots.rows("series", path, "--facade", "house/south_1", "--patch", "3")
@@ -217,7 +280,7 @@ def run_study(sunload, folder, name, text):
 
 
 def drawn(script, path, **chosen):
-    """The figure of a script, and its heading."""
+    """The figure of a script, and its heading as one line."""
     import importlib
     from types import SimpleNamespace
 
@@ -225,7 +288,7 @@ def drawn(script, path, **chosen):
     arguments = {"facade": [], "patch": [], "sensor": [], "quantity": None, "time": None, "colour": "false", "max": None,
                  "step": "auto", "horizon": None, **chosen}
     figure, _ = importlib.import_module(script).draw(reading.Result(path), SimpleNamespace(**arguments))
-    return figure, figure._suptitle.get_text()
+    return figure, " ".join(figure._suptitle.get_text().split())
 
 
 def test_months_of_days(sunload, folder):
@@ -542,6 +605,8 @@ def test(sunload, source, folder):
     test_months_of_some_parts(plots, sunload, folder)
     test_months_of_days(sunload, folder)
     test_facade_map_drawing(path)
+    test_facade_map_of_tower(sunload, folder)
+    test_long_names(sunload, path, other)
     test_sun_path_with_hills(plots, sunload, folder)
     test_compare(plots, sunload, path, other)
     test_report(plots, folder)
