@@ -17,6 +17,7 @@ import sys
 import numpy as np
 
 import drawing
+import fonts
 from drawing import plt, student_t
 from program import Program, add_program
 from reading import InputError, Result
@@ -214,6 +215,7 @@ def main(argv):
     if len(arguments.results) < 2:
         raise InputError("only one result: there is nothing to compare; give the base and at least one variant")
     results = [Result(path) for path in arguments.results]
+    fonts.serve(results)
     figure, listed = draw(results, arguments, Program(arguments.sunload))
     if arguments.csv:
         drawing.write_csv(arguments.csv, listed)

@@ -19,6 +19,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.colors import ListedColormap  # noqa: E402
 
+import fonts  # noqa: E402
 from reading import InputError, Result  # noqa: E402
 
 # Okabe and Ito (2008), Color universal design: told apart by all kinds of colour vision.
@@ -236,6 +237,7 @@ def run(main):
 def draw_one(arguments, name, draw):
     """For a picture of one result: `draw` gives figure and rows."""
     result = Result(arguments.results[0])
+    fonts.serve([result])
     figure, rows = draw(result, arguments)
     if arguments.csv:
         write_csv(arguments.csv, rows)

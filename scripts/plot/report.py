@@ -26,6 +26,7 @@ import carpet
 import compare_bars
 import drawing
 import facade_map
+import fonts
 import months
 import series
 import sun_path
@@ -231,7 +232,8 @@ def table_page(results, program):
                 f"{cell[k] if k < len(cell) else '':<{width}}" for cell in cells))
     figure = plt.figure(figsize=(11, 1.5 + 0.17 * len(lines)))
     figure.text(0.02, 0.98, f"sunload: {results[0].attribute('study')}", va="top", fontsize=16)
-    figure.text(0.02, 1 - 0.8 / figure.get_figheight(), "\n".join(lines), va="top", fontsize=7, family="monospace")
+    figure.text(0.02, 1 - 0.8 / figure.get_figheight(), "\n".join(lines), va="top", fontsize=7,
+                family=["monospace", *plt.rcParams["font.family"]])
     return figure
 
 
@@ -259,6 +261,7 @@ def main(argv):
     add_program(p)
     arguments = p.parse_args(argv)
     results = results_of(arguments.results)
+    fonts.serve(results)
     output = arguments.output or os.path.join(os.path.dirname(results[0].path), "report.html")
     kind = os.path.splitext(output)[1].lower()
     if kind not in (".html", ".pdf"):

@@ -16,6 +16,7 @@ import numpy as np
 from matplotlib.ticker import NullFormatter
 
 import drawing
+import fonts
 from drawing import plt
 from reading import InputError, Result
 
@@ -111,6 +112,7 @@ def main(argv):
     p.add_argument("--errors", metavar="CSV", help="what samplers_bench has written")
     arguments = p.parse_args(argv)
     results = [Result(path) for path in arguments.results]
+    fonts.serve(results)
     figure, rows = draw(results, arguments)
     if arguments.csv:
         drawing.write_csv(arguments.csv, rows)

@@ -556,6 +556,30 @@ def test_bands(plots, sunload, folder):
     assert ran.returncode == 0, ran.stderr
 
 
+def test_letters(plots, sunload, folder):
+    """What the usual font lacks comes from another one, or is told once."""
+    import fonts
+    import matplotlib.font_manager
+    from matplotlib.ft2font import FT2Font
+
+    def letters_in(name):
+        return set(FT2Font(matplotlib.font_manager.findfont(name)).get_charmap())
+    # Both come with Matplotlib.
+    rare = {chr(min(letters_in("STIXGeneral") - letters_in("DejaVu Sans")))}
+    names, missing = fonts.found_for(rare)
+    assert len(names) == 1 and not missing and min(map(ord, rare)) in letters_in(names[0]), names
+    # No letter of this plane is ever given away (Unicode: private use).
+    assert fonts.found_for({"\U0010fffd"}) == ([], {"\U0010fffd"})
+    with open(os.path.join(folder, "letters.obj"), "w", encoding="utf-8") as file:
+        file.write(SQUARE.replace("o house", "o 家屋\U0010fffd"))
+    path = run_study(sunload, folder, "letters", STUDY[:STUDY.index("variants")].replace("name: square", "name: letters")
+                     .replace("square.obj", "letters.obj").replace("2026-03-21, ", ""))
+    for script, words in (("series", [path]), ("report", [path, "-o", os.path.join(folder, "letters.html")])):
+        ran = plots.run(script, *words)
+        assert ran.returncode == 0 and "Warning" not in ran.stderr, ran.stderr
+        assert ran.stderr.count("no installed font has ") == 1 and "\U0010fffd: boxes" in ran.stderr, ran.stderr
+
+
 def test_wrong_input(plots, path, folder):
     empty = os.path.join(folder, "empty")
     os.makedirs(empty)
@@ -613,6 +637,7 @@ def test(sunload, source, folder):
     test_report_has_one_scale(sunload, path, other)
     test_program_beside(source, folder)
     test_report_without_series(plots, sunload, folder)
+    test_letters(plots, sunload, folder)
     test_wrong_input(plots, path, folder)
     test_samples(plots, sunload, folder)
     test_bands(plots, sunload, folder)
