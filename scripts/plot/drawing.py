@@ -40,7 +40,8 @@ plt.rcParams.update({
     "font.size": 9, "axes.titlesize": 10, "axes.titlelocation": "left", "figure.titlesize": 12,
     "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True, "legend.frameon": False,
     "axes.grid": False, "grid.color": "#dddddd", "grid.linewidth": 0.6, "savefig.facecolor": "white",
-    "svg.hashsalt": "sunload", "figure.constrained_layout.use": True})
+    "svg.hashsalt": "sunload", "text.parse_math": False,  # names are written as they are, also with a $
+    "figure.constrained_layout.use": True})
 
 
 def student_t(degrees):
@@ -177,15 +178,14 @@ def written_aside(path):
 
 
 def save(figure, path, dpi):
+    ending = os.path.splitext(path)[1].lower()
+    if ending[1:] not in figure.canvas.get_supported_filetypes():
+        why = f"format {ending[1:]} is not known" if ending else "it has no ending"
+        raise InputError(f"{path}: {why}; end the name in .png, .pdf or .svg")
+    metadata = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(ending)
     try:
-        ending = os.path.splitext(path)[1].lower()
-        if not ending:
-            raise ValueError("it has no ending")
-        metadata = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(ending)
         with written_aside(path) as aside:
             figure.savefig(aside, dpi=dpi, metadata=metadata, format=ending[1:])
-    except ValueError as error:
-        raise InputError(f"{path}: {error}; end the name in .png, .pdf or .svg") from error
     finally:
         plt.close(figure)
 

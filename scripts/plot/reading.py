@@ -4,6 +4,7 @@
 
 import datetime
 import fnmatch
+import re
 import zoneinfo
 from dataclasses import dataclass
 
@@ -55,6 +56,16 @@ def listed(names, most=12):
     return ", ".join(names[:most]) + (f", … ({len(names)} in all)" if len(names) > most else "")
 
 
+def fixed_offset(name):
+    """The zone of an offset such as +01:00; None where it is a name."""
+    written = re.fullmatch(r"([+-])(\d{1,2})(?::?(\d{2}))?", name)
+    if not written:
+        return None
+    sign, hours, minutes = written.groups()
+    offset = datetime.timedelta(hours=int(hours), minutes=int(minutes or 0))
+    return datetime.timezone(-offset if sign == "-" else offset, name)
+
+
 class Result:
     """An open result file; datasets are read when they are asked for."""
 
@@ -70,7 +81,7 @@ class Result:
             raise InputError(f"{path}: is no result of sunload (attribute sunload_format: '{form}'); "
                              "give a file that `sunload run` has written")
         try:
-            self.zone = zoneinfo.ZoneInfo(self.zone_name)
+            self.zone = fixed_offset(self.zone_name) or zoneinfo.ZoneInfo(self.zone_name)
         except zoneinfo.ZoneInfoNotFoundError as error:
             raise InputError(f"{path}: unknown time zone {self.zone_name}; install tzdata") from error
 

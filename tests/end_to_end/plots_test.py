@@ -8,6 +8,7 @@ plots_test.py SUNLOAD SOURCE_FOLDER
 
 import base64
 import csv
+import datetime
 import io
 import json
 import os
@@ -580,6 +581,20 @@ def test_letters(plots, sunload, folder):
         assert ran.stderr.count("no installed font has ") == 1 and "\U0010fffd: boxes" in ran.stderr, ran.stderr
 
 
+def test_signs_and_offsets(plots, sunload, folder):
+    """Names with signs that mean a formula elsewhere; a zone that is an offset alone."""
+    with open(os.path.join(folder, "signs.obj"), "w", encoding="utf-8") as file:
+        file.write(SQUARE.replace("o house", "o h$_{$x^"))
+    study = STUDY[:STUDY.index("variants")].replace("name: square", "name: signs").replace("square.obj", "signs.obj")
+    path = run_study(sunload, folder, "signs", re.sub(r"timezone: [A-Za-z/]+", 'timezone: "+05:45"', study))
+    for script in ("series", "facade_map", "carpet", "sun_path"):
+        ran = plots.run(script, path, "-o", os.path.join(folder, f"signs_{script}.png"))
+        assert ran.returncode == 0, ran.stderr
+    import reading
+    offset = reading.fixed_offset("-03:30")
+    assert offset.utcoffset(None) == datetime.timedelta(hours=-3, minutes=-30) and reading.fixed_offset("UTC") is None
+
+
 def test_wrong_input(plots, path, folder):
     empty = os.path.join(folder, "empty")
     os.makedirs(empty)
@@ -638,6 +653,7 @@ def test(sunload, source, folder):
     test_program_beside(source, folder)
     test_report_without_series(plots, sunload, folder)
     test_letters(plots, sunload, folder)
+    test_signs_and_offsets(plots, sunload, folder)
     test_wrong_input(plots, path, folder)
     test_samples(plots, sunload, folder)
     test_bands(plots, sunload, folder)
