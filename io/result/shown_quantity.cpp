@@ -19,8 +19,6 @@
 namespace sunload {
 namespace {
 
-constexpr double scale_share = 0.995;  // of the area, below the end of the scale
-
 /// All that can be shown of a result.
 std::vector<std::string> shown_names(const ResultReader& result) {
   auto names = patch_datasets(result, PatchDatasets::totals);

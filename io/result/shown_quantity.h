@@ -53,8 +53,12 @@ std::vector<std::string> patch_datasets(const ResultReader& result, PatchDataset
 InputError unknown_quantity(const ResultReader& result, const std::string& quantity,
                             const std::vector<std::string>& known, const std::string& why);
 
+/// Share of the area that lies below the end of a scale, so that a few glints do not darken the
+/// rest.
+inline constexpr double scale_share = 0.995;
+
 /// Value of the last colour: `largest` where given (InputError unless above 0), else a round
-/// number above which at most 0.5 % of the area lie, so that a few glints do not darken the rest.
+/// number below which `scale_share` of the area lie.
 double scale_end(const std::optional<double>& largest, const std::vector<double>& values,
                  const std::vector<double>& area);
 

@@ -5,41 +5,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "geo/base/check.h"
 #include "geo/time/time.h"
-#include "io/base/base64.h"
-#include "io/base/deflate.h"
 #include "io/base/half_float.h"
 #include "io/base/text.h"
 #include "io/result/measure_table.h"
 #include "io/result/schema.h"
 #include "io/result/time.h"
+#include "io/view/scale_of_times.h"
 
 namespace sunload {
 namespace {
 
 using nlohmann::json;
 
-// Slower levels make the page smaller by hundredths only.
-constexpr int deflate_level = 6;
 // Rows of a series read at a time: results are chunked by 64 rows or so.
 constexpr std::size_t rows_at_a_time = 64;
-
-std::size_t add_block(ViewBlocks& blocks, const Bytes& bytes) {
-  blocks.base64.push_back(base64(zlib_deflated(bytes, deflate_level)));
-  return blocks.base64.size() - 1;
-}
-
-template <class Number>
-std::size_t add_numbers(ViewBlocks& blocks, const std::vector<Number>& numbers) {
-  Bytes bytes(numbers.size() * sizeof(Number));
-  if (!bytes.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
-  return add_block(blocks, bytes);
-}
 
 std::vector<float> floats(const std::vector<double>& values) {
   return {values.begin(), values.end()};
@@ -63,13 +48,13 @@ json geometry(const ResultReader& result, ViewBlocks& blocks) {
   auto vertices = result.doubles("vertex_position");
   const auto centre = middle(vertices);
   for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] -= centre[i % 3];
-  json j{{"centre", centre}, {"vertices", add_numbers(blocks, floats(vertices))}};
+  json j{{"centre", centre}, {"vertices", blocks.add(floats(vertices))}};
   for (const auto* name :
        {"patch_vertices", "patch_object", "patch_facade", "patch_material", "patch_surface",
         "patch_side", "patch_input_triangle", "input_triangle_vertices"})
-    j[name] = add_numbers(blocks, result.integers(name));
+    j[name] = blocks.add(result.integers(name));
   for (const auto* name : {"patch_area", "patch_normal"})
-    j[name] = add_numbers(blocks, floats(result.doubles(name)));
+    j[name] = blocks.add(floats(result.doubles(name)));
   for (const auto* name : {"object_name", "facade_name", "material_name"})
     j[name] = result.has(name) ? result.strings(name) : std::vector<std::string>{};
   for (const auto* name : {"facade_azimuth", "facade_area", "facade_light_load_se"})
@@ -87,7 +72,7 @@ json totals(const ResultReader& result, ViewBlocks& blocks) {
     list.push_back({{"name", name},
                     {"what", variable.long_name},
                     {"units", display_units(result.units(name))},
-                    {"values", add_numbers(blocks, floats(result.doubles(name)))}});
+                    {"values", blocks.add(floats(result.doubles(name)))}});
   }
   for (const auto& measure : measure_names(result)) {
     const std::string name = std::string(measure_prefix) + measure;
@@ -95,9 +80,20 @@ json totals(const ResultReader& result, ViewBlocks& blocks) {
     list.push_back({{"name", name},
                     {"what", result.text_attribute(name, "definition")},
                     {"units", display_units(result.units(name))},
-                    {"values", add_numbers(blocks, values)}});
+                    {"values", blocks.add(values)}});
   }
   return list;
+}
+
+/// Of every interval; NaN where a result lacks it.
+std::vector<double> known_ghi(const ResultReader& result) {
+  auto ghi = result.doubles("ghi");
+  if (result.lacking().empty() || !result.has("power_sun")) return ghi;
+  const auto power = result.doubles("power_sun");
+  const std::size_t bands = power.size() / std::max<std::size_t>(ghi.size(), 1);
+  for (std::size_t k = 0; k < ghi.size(); ++k)
+    if (std::isnan(power.at(k * bands))) ghi[k] = power[k * bands];
+  return ghi;
 }
 
 json times(const ResultReader& result, std::size_t step) {
@@ -105,6 +101,7 @@ json times(const ResultReader& result, std::size_t step) {
   const auto time = result.doubles("time"), bounds = result.doubles("time_bounds"),
              direction = result.doubles("sun_direction"), azimuth = result.doubles("sun_azimuth"),
              elevation = result.doubles("sun_elevation");
+  const auto ghi = known_ghi(result), shares = result.chosen_shares();
   const bool is_synthetic = has_no_dates(result);
   json list = json::array();
   for (std::size_t i = 0; i < time.size(); i += step)
@@ -114,7 +111,9 @@ json times(const ResultReader& result, std::size_t step) {
                     {"local_end", is_synthetic ? "" : iso_local(bounds[2 * i + 1], zone)},
                     {"sun", {direction[3 * i], direction[3 * i + 1], direction[3 * i + 2]}},
                     {"azimuth", azimuth[i]},
-                    {"elevation", elevation[i]}});
+                    {"elevation", elevation[i]},
+                    {"ghi", ghi.at(i)},
+                    {"share", shares.at(i)}});
   return list;
 }
 
@@ -126,9 +125,10 @@ double largest_value(const ResultReader& result, const std::string& name, std::s
   return largest;
 }
 
-/// Rows one after the other, each as the low bytes of all patches and then the high bytes.
+/// Rows one after the other, each as the low bytes of all patches and then the high bytes. With
+/// `area` of the columns also where a scale of all rows ends.
 json series(const ResultReader& result, const std::string& name, std::size_t step,
-            ViewBlocks& blocks) {
+            ViewBlocks& blocks, const std::vector<double>& area = {}) {
   if (name.empty()) return nullptr;
   const auto shape = result.shape(name);
   const std::size_t intervals = shape.at(0), patches = shape.at(1);
@@ -138,6 +138,7 @@ json series(const ResultReader& result, const std::string& name, std::size_t ste
   int exponent = 0;
   std::frexp(largest, &exponent);
   const double scale = largest > 0 ? std::ldexp(1.0, half_exponent - 1 - exponent) : 1;
+  ScaleOfTimes scale_of_times(area);
   Bytes planes;
   planes.reserve((intervals + step - 1) / step * patches * 2);
   for (std::size_t first = 0; first < intervals; first += rows_at_a_time) {
@@ -145,6 +146,9 @@ json series(const ResultReader& result, const std::string& name, std::size_t ste
     const auto values = result.rows(name, first, count);
     for (std::size_t r = 0; r < count; ++r) {
       if ((first + r) % step != 0) continue;
+      if (!area.empty())
+        scale_of_times.add({values.begin() + static_cast<std::ptrdiff_t>(r * patches),
+                            values.begin() + static_cast<std::ptrdiff_t>((r + 1) * patches)});
       const std::size_t low = planes.size(), high = low + patches;
       planes.resize(low + 2 * patches);
       for (std::size_t p = 0; p < patches; ++p) {
@@ -157,7 +161,8 @@ json series(const ResultReader& result, const std::string& name, std::size_t ste
   return {{"name", name},
           {"units", display_units(result.units(name))},
           {"scale", scale},
-          {"values", add_block(blocks, planes)}};
+          {"end", scale_of_times.end()},
+          {"values", blocks.add(planes)}};
 }
 
 /// The same of facades, whose series are there where patches have none; null where there is
@@ -187,7 +192,7 @@ json divisions(const ResultReader& result, ViewBlocks& blocks) {
     list.push_back({{"name", division},
                     {"parts", result.strings(division)},
                     {"units", display_units(result.units(name))},
-                    {"values", add_numbers(blocks, floats(result.doubles(name)))}});
+                    {"values", blocks.add(floats(result.doubles(name)))}});
   }
   return list;
 }
@@ -207,13 +212,13 @@ json sensors(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
       continue;
     values.push_back({{"name", name.substr(prefix.size())},
                       {"units", display_units(result.units(name))},
-                      {"values", add_numbers(blocks, floats(result.doubles(name)))}});
+                      {"values", blocks.add(floats(result.doubles(name)))}});
   }
   const auto of_patches = viewed_series(result);
   auto own = result.has(prefix + of_patches) ? series(result, prefix + of_patches, step, blocks)
                                              : json(nullptr);
   if (!own.is_null()) own["name"] = of_patches;
-  return {{"position", add_numbers(blocks, floats(position))},
+  return {{"position", blocks.add(floats(position))},
           {"totals", std::move(values)},
           {"series", std::move(own)}};
 }
@@ -249,7 +254,18 @@ json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks)
           {"sensors", sensors(result, step, blocks)},
           {"origin", {origin.x, origin.y, origin.z}},
           {"facade_series", facade_series(result, step, blocks)},
-          {"series", series(result, viewed_series(result), step, blocks)}};
+          {"series",
+           series(result, viewed_series(result), step, blocks, result.doubles("patch_area"))}};
+}
+
+json view_data(const TwoResults& two, ViewBlocks& blocks) {
+  json pairs{{"is_same", two.is_same}};
+  if (!two.is_same) {
+    pairs["count"] = blocks.add(two.count);
+    pairs["patch"] = blocks.add(two.patch);
+    pairs["area"] = blocks.add(two.area);
+  }
+  return {{"pairs", std::move(pairs)}, {"end", two.end ? json(*two.end) : json()}};
 }
 
 }  // namespace sunload

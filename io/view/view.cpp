@@ -53,6 +53,12 @@ nlohmann::json palette(Palette which) {
   });
 }
 
+TwoResults what_two_share(const std::deque<ResultReader>& results, std::size_t step) {
+  const ResultReader &first = results.front(), &second = results.back();
+  const std::string series = viewed_series(first);
+  return two_results(first, second, series == viewed_series(second) ? series : "", step);
+}
+
 /// JSON that cannot end the element it stands in, whatever the names of a scene are.
 std::string script_text(const nlohmann::json& json) {
   std::string text;
@@ -107,6 +113,7 @@ void view_html(const std::vector<std::string>& paths, const ViewRules& rules,
       throw InputError({result.path()}, "no patches", "there is nothing to view");
     about["results"].push_back(view_data(result, step, blocks));
   }
+  if (results.size() > 1) about["two"] = view_data(what_two_share(results, step), blocks);
   FileAside file(path);
   errno = 0;
   std::ofstream page(file.aside(), std::ios::binary);

@@ -23,7 +23,7 @@ export function fillChoices(viewer) {
   const share = viewer.unmatchedShare;
   $("no-difference").hidden = !(share > 0);
   if (share > 0) {
-    $("no-difference").textContent = share < 1 ? `${shown(100 * share, 2)} % of ${results[0].label} has other shapes in ${results[1].label}: grey in the difference.` :
+    $("no-difference").textContent = share < 1 ? `${shown(100 * share, 2)} % of ${results[0].label} has nothing of its object in its place in ${results[1].label}: grey in the difference.` :
       "The two results share no surface: there is no difference.";
   }
   const gaps = results.filter((result) => result.lacking);

@@ -142,75 +142,6 @@ class Result {
     return this.times.findIndex((own) => own.begin <= middle && middle < own.end);
   }
 
-  /** Patches by input triangle and side; a triangle is known by its corners to the millimetre. */
-  patchesByTriangle() {
-    const keys = new Map(), groups = new Map(), { centre } = this.geometry;
-    for (let p = 0; p < this.patches; ++p) {
-      const triangle = this.patch_input_triangle[p];
-      if (!keys.has(triangle)) {
-        keys.set(triangle, [0, 1, 2].map((k) => {
-          const v = 3 * this.input_triangle_vertices[3 * triangle + k];
-          return [0, 1, 2].map((axis) => Math.round(1000 * (this.vertices[v + axis] + centre[axis]))).join(" ");
-        }).sort().join(" "));
-      }
-      const key = `${this.patch_side[p]} ${keys.get(triangle)}`;
-      groups.has(key) ? groups.get(key).push(p) : groups.set(key, [p]);
-    }
-    return groups;
-  }
-
-  /**
-   * Patches of another result that lie on each patch of this one: those whose middle is in it, or the one that
-   * its own middle is in. Patches of one input triangle are nested, so that the area-weighted mean over them is exact.
-   */
-  matched(other) {
-    const found = Array.from({ length: this.patches }, () => []), around = new Int32Array(this.patches).fill(-1);
-    const others = other.patchesByTriangle();
-    for (const [key, patches] of this.patchesByTriangle()) {
-      if (!others.has(key)) continue;
-      this.eachHeld(patches, other, others.get(key), (p, q) => found[p].push(q));
-      other.eachHeld(others.get(key), this, patches, (q, p) => { around[p] = q; });
-    }
-    const first = new Int32Array(this.patches + 1), list = [];
-    for (let p = 0; p < this.patches; ++p) {
-      if (found[p].length) list.push(...found[p]);
-      else if (around[p] >= 0) list.push(around[p]);
-      first[p + 1] = list.length;
-    }
-    return { first, list: Int32Array.from(list), area: other.patch_area };
-  }
-
-  /** Calls found(p, q) where the middle of a patch q of another result is in a patch p; both lie in one plane. */
-  eachHeld(patches, other, others, found) {
-    const [i, j] = this.axesOf(patches[0]), shift = [0, 1, 2].map((axis) => other.geometry.centre[axis] - this.geometry.centre[axis]);
-    const points = others.map((q) => other.centroid(q).map((x, axis) => x + shift[axis]));
-    // Points by the cells of a grid, so that each patch looks at those near it only.
-    const low = [i, j].map((axis) => points.reduce((least, point) => Math.min(least, point[axis]), Infinity));
-    const high = [i, j].map((axis) => points.reduce((most, point) => Math.max(most, point[axis]), -Infinity));
-    const count = Math.ceil(Math.sqrt(points.length)), cells = new Map();
-    const cell = (x, n) => Math.max(0, Math.min(count - 1, Math.floor(((x - low[n]) / (high[n] - low[n] || 1)) * count)));
-    points.forEach((point, k) => {
-      const at = cell(point[i], 0) * count + cell(point[j], 1);
-      cells.has(at) ? cells.get(at).push(k) : cells.set(at, [k]);
-    });
-    for (const p of patches) {
-      const corners = [0, 1, 2].map((k) => this.corner(p, k));
-      const [fromX, toX, fromY, toY] = [[i, 0], [j, 1]].flatMap(([axis, n]) => {
-        const along = corners.map((corner) => corner[axis]);
-        return [cell(Math.min(...along), n), cell(Math.max(...along), n)];
-      });
-      for (let x = fromX; x <= toX; ++x)
-        for (let y = fromY; y <= toY; ++y)
-          for (const k of cells.get(x * count + y) ?? []) if (holds(corners, points[k], i, j)) found(p, others[k]);
-    }
-  }
-
-  /** The two axes along which a patch is seen largest. */
-  axesOf(patch) {
-    const n = [0, 1, 2].map((axis) => Math.abs(this.patch_normal[3 * patch + axis])), off = n.indexOf(Math.max(...n));
-    return [0, 1, 2].filter((axis) => axis !== off);
-  }
-
   allSurfaceNames() { return surfaces; }
 
   /** Kinds of surface that its patches have. */
@@ -259,28 +190,27 @@ class Result {
   }
 }
 
-/** Whether a point is in a triangle, both seen along one axis. */
-function holds(corners, point, i, j) {
-  let left = false, right = false;
-  for (let k = 0; k < 3; ++k) {
-    const a = corners[k], b = corners[(k + 1) % 3];
-    const turn = (b[i] - a[i]) * (point[j] - a[j]) - (b[j] - a[j]) * (point[i] - a[i]);
-    left ||= turn > 0;
-    right ||= turn < 0;
-  }
-  return !(left && right);
-}
-
 /** Area-weighted mean of another result's values over what is matched to a patch; NaN: nothing. */
 export function matchedMean(match, patch, valueOf) {
   let sum = 0, area = 0;
   for (let k = match.first[patch]; k < match.first[patch + 1]; ++k) {
     const q = match.list[k], value = valueOf(q);
     if (!Number.isFinite(value)) continue;
-    sum += match.area[q] * value;
-    area += match.area[q];
+    sum += match.area[k] * value;
+    area += match.area[k];
   }
   return area > 0 ? sum / area : NaN;
+}
+
+/** What lies on each patch of the first result, and how much of it: `first` places in `list` and `area`. */
+async function readMatch(about, { patches, patch_area }) {
+  if (about.is_same) {
+    const numbers = Int32Array.from({ length: patches + 1 }, (_, p) => p);
+    return { first: numbers, list: numbers.subarray(0, patches), area: patch_area };
+  }
+  const first = new Int32Array(patches + 1);
+  new Int32Array(await block(about.count)).forEach((count, p) => { first[p + 1] = first[p] + count; });
+  return { first, list: new Int32Array(await block(about.patch)), area: new Float32Array(await block(about.area)) };
 }
 
 export async function readPage() {
@@ -290,7 +220,8 @@ export async function readPage() {
   for (const one of about.results) results.push(await Result.read(one, halves));
   ofOneFrame(results);
   nameApart(results);
-  return { results, noValue: about.no_value, palettes: { false: about.false, grey: about.grey, difference: differencePalette(), surfaces: about.surfaces, materials: about.materials } };
+  const match = about.two ? await readMatch(about.two.pairs, results[0]) : null;
+  return { results, match, endOfDifferences: about.two?.end, noValue: about.no_value, palettes: { false: about.false, grey: about.grey, difference: differencePalette(), surfaces: about.surfaces, materials: about.materials } };
 }
 
 /** Blue, near white, orange: lightness falls equally to both sides (CIELAB), told apart by all colour vision. */

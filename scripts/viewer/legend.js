@@ -3,7 +3,7 @@
 // What the colours stand for: a scale of values, or kinds with a swatch each.
 import { deepestShade, notKnown } from "./mesh.js";
 import { isShape, kinds, preview } from "./panels.js";
-import { colourShare, isPowerOfTen, leastOfDecades, logarithmicTicks, scaleEnd, shown, ticks } from "./scale.js";
+import { colourShare, endAbove, isPowerOfTen, leastOfDecades, logarithmicTicks, scaleEnd, shown, ticks } from "./scale.js";
 
 const mostSwatches = 40;
 
@@ -61,21 +61,12 @@ export function limitOf(viewer, isApart) {
 
 function limitKey(viewer, isApart) { return `${viewer.state.quantity}${isApart ? " difference" : ""}`; }
 
+/** Of a series, one for all its intervals: the program has looked for it, because a page that did would keep its user waiting. */
 function automaticLimit(viewer, isApart) {
-  const { quantity, k } = viewer.state, isSeries = viewer.results[0].series?.name === quantity;
-  const intervals = isSeries ? [...new Set([0.25, 0.5, 0.75, 1].map((share) => atElevation(viewer.results[0], share)).concat(k))] : [k];
-  const ends = intervals.flatMap((at) => {
-    if (!isApart) return viewer.results.map((result, n) => scaleEnd(viewer.valuesOf(n, quantity, at), result.patch_area));
-    const apart = viewer.difference(viewer.valuesOf(0, quantity, at), viewer.valuesOf(1, quantity, at));
-    return [scaleEnd(apart.map(Math.abs), viewer.results[0].patch_area)];
-  });
-  return Math.max(...ends);
-}
-
-/** Interval whose sun stands at a share of the highest elevation. */
-function atElevation(result, share) {
-  const elevation = result.times.map((time) => time.elevation), goal = share * Math.max(...elevation);
-  return elevation.reduce((best, value, k) => (Math.abs(value - goal) < Math.abs(elevation[best] - goal) ? k : best), 0);
+  const { quantity } = viewer.state, { results } = viewer;
+  if (results[0].series?.name === quantity) return endAbove(isApart ? viewer.endOfDifferences : Math.max(...results.map((result) => result.series.end)));
+  if (!isApart) return Math.max(...results.map((result, n) => scaleEnd(viewer.valuesOf(n), result.patch_area)));
+  return scaleEnd(viewer.difference(viewer.valuesOf(0), viewer.valuesOf(1)).map(Math.abs), results[0].patch_area);
 }
 
 /** The bar of a scale, 256 colours from left to right; below, where there is shading, how dark it makes them. */

@@ -22,14 +22,15 @@ const pathBeyond = 1.15, aroundHeight = 0.3;
 const highestStreetM = 2;
 
 class Viewer {
-  constructor({ results, palettes, noValue }) {
+  constructor({ results, match, endOfDifferences, palettes, noValue }) {
     this.results = results;
     this.canvas = $("scene");
     this.palettes = palettes;
     this.noValue = noValue;
     this.textures = Object.fromEntries(Object.entries(palettes).map(([name, colours]) => [name, paletteTexture(colours)]));
     this.known = knownNames(results);
-    this.match = results.length > 1 ? results[0].matched(results[1]) : null;
+    this.match = match;
+    this.endOfDifferences = endOfDifferences;
     this.unmatchedShare = this.match ? this.lonelyShare() : 0;
     this.state = { view: results.length > 1 ? "side" : "0", quantity: quantities(this)[0][0], k: this.brightest(results[0]), colours: "false", scale: "linear",
       shading: "constant", crease: 20, lines: "none", edges: true, shade: "shapes", path: true, takes: "patch", chart: "day", picked: [], limits: {}, folded: new Set() };
@@ -44,9 +45,12 @@ class Viewer {
     this.loop();
   }
 
+  /** Of the part of the period that is chosen the interval with most light on open ground; where there is none at all, with the highest sun. */
   brightest(result) {
-    const elevation = result.times.map((time) => time.elevation);
-    return elevation.indexOf(Math.max(...elevation));
+    const chosen = result.times.map((_, k) => k).filter((k) => result.times[k].share > 0);
+    const most = (of) => chosen.reduce((best, k) => (of(result.times[k]) > of(result.times[best]) ? k : best), chosen[0] ?? 0);
+    const brightest = most((time) => time.ghi ?? 0);
+    return result.times[brightest].ghi > 0 ? brightest : most((time) => time.elevation);
   }
 
   isNarrow() { return window.matchMedia("(max-width: 760px)").matches; }

@@ -12,6 +12,9 @@ export function roundedUp(value) {
   return Number((digit * power).toPrecision(6));
 }
 
+/** End of the scale of values of which few are above this one. */
+export function endAbove(value) { return value > 0 ? roundedUp(value) : 1; }
+
 /** End of the scale: 99.5 % of the area lie below. */
 export function scaleEnd(values, area) {
   const known = [];
@@ -21,7 +24,7 @@ export function scaleEnd(values, area) {
   let below = 0;
   for (const k of known) {
     below += area[k];
-    if (below >= scaleShare * all) return values[k] > 0 ? roundedUp(values[k]) : 1;
+    if (below >= scaleShare * all) return endAbove(values[k]);
   }
   return 1;
 }

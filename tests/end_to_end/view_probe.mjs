@@ -58,6 +58,7 @@ async function one(tab) {
 
 async function match(tab) {
   seen.unmatchedShare = await tab.evaluate(() => window.sunload.unmatchedShare);
+  seen.differences = await tab.evaluate(() => [...window.sunload.difference(window.sunload.valuesOf(0, "light_load"), window.sunload.valuesOf(1, "light_load"))]);
   seen.matchedKwh = await tab.evaluate(() => {
     const viewer = window.sunload, own = viewer.valuesOf(0, "light_load");
     return viewer.difference(own, viewer.valuesOf(1, "light_load")).reduce((sum, apart, p) => sum + viewer.results[0].patch_area[p] * (own[p] + apart), 0);
@@ -113,6 +114,7 @@ async function use(tab) {
     seen.times[k] = { clock: await tab.textContent("#clock"), limit: await tab.evaluate(() => window.sunload.limit()) };
     await picture(tab, `time-${k}`);
   }
+  seen.differenceLimitOfSeries = await tab.evaluate(() => (window.sunload.match ? window.sunload.limit(true) : null));
   await tab.fill("#limit", "123");
   await tab.press("#limit", "Enter");
   seen.userLimit = await tab.evaluate(() => window.sunload.limit());

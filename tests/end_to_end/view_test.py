@@ -33,6 +33,7 @@ variants:
   - {name: baseline}
   - {name: bright, scene: {materials: {plaster: {diffuse: 0.9}}}}
   - {name: fine, mesh: {max_edge_m: 1.8}}
+  - {name: raised, scene: {edit: [{object: "house*", raise: {by_m: 2}}]}}
 """
 # Of 255: the palette's texture and the legend's rounding are one each.
 COLOUR_STEPS = 2
@@ -114,11 +115,35 @@ def test_page(seen, pictures, path, other):
         last = max(seen["times"], key=int)
         assert seen["userLimit"] == 123
         assert_colours(pictures, "limit", patches, "false", result["irradiance"][int(last)][ids], 123)
+        test_ends(seen, result, bright)
         test_clicks(seen, result, bright, int(seen["dayTime"]))
         test_sensor(seen, pictures, result)
         test_materials(seen, pictures, patches, result)
         test_difference(seen, pictures, patches, bright["light_load"][...][ids] - load[ids])
     test_drawings(seen, pictures)
+
+
+def rounded_up(value):
+    power = 10 ** np.floor(np.log10(value))
+    return next(d * power for d in (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10) if d * power >= value * (1 - 1e-9))
+
+
+def scale_end(values, area):
+    """Value that 99.5 % of the area do not exceed."""
+    known = np.isfinite(values)
+    order = np.argsort(values[known])
+    below = np.cumsum(area[known][order])
+    return values[known][order][np.searchsorted(below, 0.995 * below[-1])]
+
+
+def test_ends(seen, result, bright):
+    """One end for all times, of light and of differences; it opens where there is most light."""
+    area, series = result["patch_area"][...], [file["irradiance"][...] for file in (result, bright)]
+    wanted = rounded_up(max(scale_end(row, area) for one in series for row in one))
+    assert all(np.isclose(said["limit"], wanted) for said in seen["times"].values()), (seen["times"], wanted)
+    wanted = rounded_up(max(scale_end(np.abs(row), area) for row in series[1] - series[0]))
+    assert np.isclose(seen["differenceLimitOfSeries"], wanted), (seen["differenceLimitOfSeries"], wanted)
+    assert seen["dayTime"] == np.argmax(result["ghi"][...]), seen["dayTime"]
 
 
 def test_clicks(seen, result, bright, k):
@@ -235,11 +260,27 @@ f 12 9 13 16
 """
 
 
+def test_pairs(probe, folder, sunload):
+    """Of a house that is raised the walls have differences where `sunload compare` has them, and the same."""
+    base, raised = (os.path.join(folder, f"results/square/{name}.h5") for name in ("baseline", "raised"))
+    for one, other in ((base, raised), (raised, base)):
+        page, compared = (os.path.join(folder, name) for name in ("pairs.html", "pairs.h5"))
+        run([sunload, "view", one, other, "-o", page])
+        run([sunload, "compare", one, other, "--hdf5", compared])
+        seen = json.loads(run([*probe, page, folder, "match"]))
+        with h5py.File(compared) as file:
+            wanted, names = file["light_load_difference"][...], file["object_name"].asstr()[...][file["patch_object"][...]]
+        own = np.array([np.nan if value is None else value for value in seen["differences"]])
+        assert 0 < seen["unmatchedShare"] < 0.5 and (np.isnan(own) == np.isnan(wanted)).all(), (seen["unmatchedShare"], np.isnan(own).sum(), np.isnan(wanted).sum())
+        assert np.isfinite(own[names == EVIL]).any(), "no wall of the house is compared"
+        assert np.allclose(own, wanted, rtol=1e-4, atol=1e-5, equal_nan=True), np.nanmax(np.abs(own - wanted))
+
+
 def test_frames(probe, folder, sunload):
     """Of a place on a map without one of its houses: the frame's origin is elsewhere, what is left is not."""
     study = STUDY.replace("name: square", "name: town").replace("fine, mesh: {max_edge_m: 1.8}", "east, scene: {edit: [{object: west, remove: true}]}")
     study = study.replace("files: [square.obj]", "files: [{file: town.obj, position_m: [345000, 6297000, 0]}]")
-    study = "".join(line for line in study.splitlines(True) if not line.startswith(("sensors", "  materials")) and "bright" not in line)
+    study = "".join(line for line in study.splitlines(True) if not line.startswith(("sensors", "  materials")) and "bright" not in line and "raised" not in line)
     write(folder, {"town.obj": TWO_HOUSES, "town.yaml": study})
     run([sunload, "run", "town.yaml"], cwd=folder)
     both, east = (os.path.join(folder, f"results/town/{name}.h5") for name in ("baseline", "east"))
@@ -283,6 +324,7 @@ def test(sunload, source, packages, folder):
     seen = json.loads(run([*probe, page, folder]))
     test_page(seen, Pictures(folder), path, other)
     test_match(probe, folder, sunload)
+    test_pairs(probe, folder, sunload)
     test_frames(probe, folder, sunload)
     test_refusals(sunload, folder, path, probe)
     print(f"{len(seen['patches'])} patches have the colours of their values, {len(seen['clicks'])} clicks told them; "
