@@ -3,7 +3,7 @@
 // What the colours stand for: a scale of values, or kinds with a swatch each.
 import { deepestShade, notKnown } from "./mesh.js";
 import { isShape, kinds, preview } from "./panels.js";
-import { colourShare, endAbove, isPowerOfTen, leastOfDecades, logarithmicTicks, scaleEnd, shown, ticks } from "./scale.js";
+import { colourShare, endAbove, isPowerOfTen, leastOfDecades, logarithmicTicks, scaleEnd, shown, ticks, withEnds } from "./scale.js";
 
 const mostSwatches = 40;
 
@@ -16,7 +16,7 @@ export function legendsOf(viewer) {
   return chosen.map((part, place) => {
     const apart = isApart(part), scale = scaleOf(viewer, apart), { low, high, isLogarithmic } = scale;
     const key = limitKey(viewer, apart), units = viewer.results[0].units(quantity) || "share";
-    return { ...scale, key, units: apart && chosen.length > 1 ? `± ${units}` : units, ticks: isLogarithmic ? logarithmicTicks(low, high) : ticks(low, high),
+    return { ...scale, key, units: apart && chosen.length > 1 ? `± ${units}` : units, ticks: withEnds(scale, isLogarithmic ? logarithmicTicks(low, high) : ticks(low, high)),
       palette: viewer.palettes[apart ? "difference" : colours], isShaded: shade === "all", isUsers: key in limits, isMain: place === 0, isApart: apart,
       beyond: beyondWords(viewer, parts.filter((one) => isApart(one) === apart), scale) };
   });
@@ -28,16 +28,40 @@ export function scaleOf(viewer, isApart) {
   return { low: isApart ? -high : isLogarithmic ? leastOfDecades(high) : 0, high, isLogarithmic };
 }
 
-/** What has the first or the last colour without being of its value, in sentences. */
-function beyondWords(viewer, parts, { low, high, isLogarithmic }) {
-  let largest = 0, isBelow = false;
-  for (const one of parts)
-    for (const value of viewer.meshes[one.mesh].value.array) {
-      if (value > largest) largest = value;
-      if (value < low && value > notKnown) isBelow = true;
+/** What has the first or the last colour without being of its value, and what has none of them, in sentences. */
+function beyondWords(viewer, parts, scale) {
+  const { largest, smallest, isKnown } = rangeOf(parts.map((one) => viewer.meshes[one.mesh].value.array)), { low, high, isLogarithmic } = scale;
+  const words = [];
+  if (largest > high * (1 + 1e-6)) words.push(`larger values, up to ${shown(largest)}, have the last colour`);
+  if (isLogarithmic && smallest < low) words.push(`values below ${shown(low)} have the first colour`);
+  if (low < 0 && smallest < low * (1 + 1e-6)) words.push(`smaller values, down to ${shown(smallest)}, have the first colour`);
+  if (!isKnown) words.push(unknownWords(viewer, low < 0));
+  if (parts.some((part) => hasWhiteSensors(viewer, part))) words.push("white dots: sensors without a value of it");
+  return words;
+}
+
+function hasWhiteSensors(viewer, part) {
+  if (!viewer.results[part.n].sensors) return false;
+  const values = viewer.sensorValues(part);
+  return !values || !values.every(Number.isFinite);
+}
+
+function rangeOf(arrays) {
+  let largest = -Infinity, smallest = Infinity, isKnown = true;
+  for (const array of arrays)
+    for (const value of array) {
+      if (!(value > notKnown)) isKnown = false;
+      else if (value > largest) largest = value;
+      if (value > notKnown && value < smallest) smallest = value;
     }
-  const above = largest > high * (1 + 1e-6) ? [`larger values, up to ${shown(largest)}, have the last colour`] : [];
-  return isLogarithmic && isBelow ? [...above, `values below ${shown(low)} have the first colour`] : above;
+  return { largest, smallest, isKnown };
+}
+
+/** What surfaces without a value are. */
+function unknownWords(viewer, isApart) {
+  if (isApart) return "grey: no counterpart";
+  const colour = viewer.state.colours === "grey" ? "blue" : "grey";
+  return `${colour}: not ${viewer.state.quantity.startsWith("measure_") ? "measured" : "known"}`;
 }
 
 function swatchesOf(viewer, parts) {
@@ -48,7 +72,7 @@ function swatchesOf(viewer, parts) {
     for (const k of [...new Set(of)].sort((a, b) => a - b))
       if (k >= 0) found.set(`${k} ${names[k]}`, { colour: colour(k % (palette.length / 3)), name: names[k] || "without a name" });
   }
-  return [...found.values()];
+  return [...found.values(), ...(parts.some(({ n }) => viewer.results[n].sensors) ? [{ colour: "#fff", name: "sensors" }] : [])];
 }
 
 /** What the colours end at: the user's limit, or one for all results and times. */
@@ -90,13 +114,16 @@ function element(name, text = "", properties = {}) {
 /** Of a logarithmic scale without the digits that round numbers do not need. */
 export function tickText({ isLogarithmic }, value) { return isLogarithmic ? String(value) : shown(value); }
 
+/** Whether there is no number at a tick where there is little room. */
+export function isMinor({ isLogarithmic, high }, value) { return isLogarithmic && !isPowerOfTen(value) && value !== high; }
+
 function scaleElement(legend, setLimit, change) {
   const box = element("div", "", { className: "scale" }), bar = element("div", "", { className: "bar" }), canvas = element("canvas");
   drawBarCanvas(canvas, legend);
   if (legend.isShaded) canvas.title = "below: the same colours where surfaces are shaded";
   const marks = element("div", "", { className: "ticks" });
   for (const value of legend.ticks) {
-    const tick = element("span", tickText(legend, value), { className: legend.isLogarithmic && !isPowerOfTen(value) ? "minor" : "" });
+    const tick = element("span", tickText(legend, value), { className: isMinor(legend, value) ? "minor" : "" });
     tick.style.left = `${100 * colourShare(legend, value)}%`;
     marks.append(tick);
   }
@@ -119,9 +146,8 @@ function scaleElement(legend, setLimit, change) {
     choice.append(" ", switched);
   }
   box.append(element("span", legend.units, { className: "units" }), bar, choice);
-  // Always there, so that the picture stays as high as it is.
-  const beyond = legend.beyond.join("; ");
-  box.append(element("p", beyond || "\u00a0", { className: "beyond", title: beyond }));
+  // Always there and of two lines, so that the picture stays as high as it is.
+  box.append(element("p", legend.beyond.join("; "), { className: "beyond" }));
   return box;
 }
 

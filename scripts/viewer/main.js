@@ -168,7 +168,7 @@ class Viewer {
       mesh.showLines(lines);
       mesh.foldLines.visible = edges;
       mesh.outline.show(this, picked, part.n);
-      this.showSensors(mesh, part, scale);
+      mesh.sensors?.show(this.sensorValues(part), this.palettes[colours], scale);
     }
     this.sky.show(k);
     if (path !== this.isPathShown) this.sky.object.visible = this.isPathShown = path;
@@ -182,12 +182,10 @@ class Viewer {
     this.touch();
   }
 
-  /** Sensors have the colours of their values; in a difference, and where they lack the quantity, they are white. */
-  showSensors(mesh, part, scale) {
-    if (!mesh.sensors) return;
-    const { quantity, colours, k } = this.state, result = this.results[part.n], own = part.n === 0 ? k : result.intervalAt(this.results[0].times[k]);
-    const values = part.mesh === difference || isShape(quantity) ? null : result.sensors.values(quantity, own);
-    mesh.sensors.show(values, this.palettes[colours], scale);
+  /** Of what a picture shows one value per sensor; nothing in a difference, and where they lack the quantity. */
+  sensorValues(part) {
+    const { quantity, k } = this.state, result = this.results[part.n], own = part.n === 0 ? k : result.intervalAt(this.results[0].times[k]);
+    return part.mesh === difference || isShape(quantity) ? null : result.sensors.values(quantity, own);
   }
 
   shapeCamera() {

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is shown as one picture: title, scene with captions, legend and time.
-import { drawBarCanvas, tickText } from "./legend.js";
-import { colourShare, isPowerOfTen } from "./scale.js";
+import { drawBarCanvas, isMinor, tickText } from "./legend.js";
+import { colourShare } from "./scale.js";
 import { caption, fileName, title } from "./words.js";
 
-const margin = 16, titleHeight = 40, captionHeight = 24, legendHeight = 64, barWidth = 320;
+const margin = 16, titleHeight = 40, captionHeight = 24, barHeight = 36, lineHeight = 14, barWidth = 320;
 
 /** Lines of swatches that fit a width; calls draw(x, line, swatch) where given. */
 function flow(c, swatches, width, draw = () => {}) {
@@ -21,7 +21,7 @@ function flow(c, swatches, width, draw = () => {}) {
 
 /** Numbers below a bar; of a logarithmic one those between powers of ten where they have room. */
 function drawTicks(c, legend, from, y) {
-  const taken = [], ticks = legend.isLogarithmic ? [...legend.ticks].sort((a, b) => isPowerOfTen(b) - isPowerOfTen(a)) : legend.ticks;
+  const taken = [], ticks = legend.isLogarithmic ? [...legend.ticks].sort((a, b) => isMinor(legend, a) - isMinor(legend, b)) : legend.ticks;
   for (const value of ticks) {
     const text = tickText(legend, value), width = c.measureText(text).width, left = from + colourShare(legend, value) * barWidth - width / 2;
     if (legend.isLogarithmic && taken.some(([begin, end]) => left < end + 4 && left + width > begin - 4)) continue;
@@ -41,7 +41,7 @@ function drawScale(c, legend, x, y) {
   c.font = "12px 'DejaVu Sans', Verdana, sans-serif";
   drawTicks(c, legend, from, y + 30);
   c.fillStyle = "#555";
-  legend.beyond.forEach((words, line) => c.fillText(words, from, y + 44 + 14 * line));
+  legend.beyond.forEach((words, line) => c.fillText(words, from, y + barHeight + 8 + lineHeight * line));
   c.fillStyle = "#222";
   return from + barWidth + 40;
 }
@@ -51,7 +51,7 @@ export function composed(viewer) {
   viewer.render();
   const scene = viewer.canvas, width = scene.clientWidth, height = scene.clientHeight, ratio = scene.width / width;
   const page = document.createElement("canvas"), c = page.getContext("2d");
-  const legends = viewer.legends();
+  const legends = viewer.legends(), legendHeight = barHeight + lineHeight * (1 + Math.max(1, ...legends.map((one) => one.beyond?.length ?? 0)));
   c.font = "12px 'DejaVu Sans', Verdana, sans-serif";
   const swatches = legends.find((one) => one.swatches)?.swatches;
   const foot = swatches ? 20 * flow(c, swatches, width - 2 * margin) + margin : legends.length ? legendHeight * (legends.length > 1 && width < 1000 ? 2 : 1) : 0;

@@ -38,6 +38,16 @@ export function ticks(low, high) {
   return list;
 }
 
+// Of the bar: numbers that are as near to each other would touch.
+const nearestTicks = 0.08;
+
+/** Ticks with the last colour's value (of differences the first's, too) in place of those that are too near to it. */
+export function withEnds(scale, list) {
+  const ends = scale.low < 0 ? [scale.low, scale.high] : [scale.high], share = (value) => colourShare(scale, value);
+  const rest = list.filter((value) => ends.every((end) => Math.abs(share(end) - share(value)) >= nearestTicks));
+  return [...rest, ...ends].sort((a, b) => a - b);
+}
+
 // As in `sunload render --scale log`.
 const decades = 3;
 

@@ -188,7 +188,14 @@ async function logarithmic(tab) {
     ticks: [...document.querySelectorAll("#legend .ticks span")].map((tick) => [Number(tick.textContent), parseFloat(tick.style.left) / 100]), says: document.querySelector("#legend .beyond").textContent }));
   await picture(tab, "logarithmic");
   await tab.evaluate(() => { window.sunload.change({ view: "difference" }); });
-  seen.logarithmic.ofDifference = await tab.evaluate(() => ({ switches: document.querySelectorAll("#scale").length, ticks: [...document.querySelectorAll("#legend .ticks span")].map((tick) => Number(tick.textContent)) }));
+  seen.logarithmic.ofDifference = await tab.evaluate(() => ({ limit: window.sunload.limit(), switches: document.querySelectorAll("#scale").length, ticks: [...document.querySelectorAll("#legend .ticks span")].map((tick) => Number(tick.textContent)) }));
+  seen.beyond = await tab.evaluate(() => {
+    const viewer = window.sunload, quantity = "light_load_se", says = () => document.querySelector("#legend .beyond").textContent;
+    viewer.change({ quantity, limits: { [`${quantity} difference`]: 1e-9 } });
+    const some = says(), values = viewer.difference(viewer.valuesOf(0), viewer.valuesOf(1));
+    viewer.change({ quantity: "light_load", limits: {} });
+    return { some, least: values.reduce((a, b) => Math.min(a, b)), most: values.reduce((a, b) => Math.max(a, b)) };
+  });
   await tab.evaluate(() => { window.sunload.change({ view: "0" }); });
   await tab.click("#scale");
   seen.logarithmic.after = await tab.evaluate(() => window.sunload.state.scale);

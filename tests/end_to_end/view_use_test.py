@@ -187,8 +187,11 @@ def test_logarithmic(seen, folder, result):
     """Three powers of ten below the limit, as in `sunload render --scale log`; differences stay as they are."""
     said, limit = seen["logarithmic"], seen["logarithmic"]["limit"]
     assert said["focus"] == "scale" and said["pressed"] == "true" and "scale=log" in said["address"], said
-    assert len(said["ticks"]) in (9, 10), said["ticks"]
+    assert len(said["ticks"]) in (9, 10, 11), said["ticks"]
+    assert max(said["ticks"])[0] == limit and -min(said["ofDifference"]["ticks"]) == max(said["ofDifference"]["ticks"]) == said["ofDifference"]["limit"], said
     for value, place in said["ticks"]:
+        if value == limit:
+            continue
         digit = value / 10 ** np.floor(np.log10(value) + 1e-9)
         assert min(abs(digit - d) for d in (1, 2, 5)) < 1e-9 and abs(place - (3 + np.log10(value / limit)) / 3) < 1e-6, (value, place, limit)
     values = np.array([result["light_load"][at["patch"]] for at in seen["shades"]])
@@ -206,6 +209,15 @@ def test_logarithmic(seen, folder, result):
         raise AssertionError("logarithmic colours are the linear ones")
     assert said["ofDifference"]["switches"] == 0 and min(said["ofDifference"]["ticks"]) < 0, said["ofDifference"]
     assert said["after"] == "linear"
+
+
+def test_beyond(seen):
+    """What lies beyond a scale of differences is told on both sides."""
+    said = seen["beyond"]
+    assert said["least"] < -1e-9 and said["most"] > 1e-9, said
+    for words, value in (("larger values, up to ", said["most"]), ("smaller values, down to ", said["least"])):
+        told = float(said["some"].split(words)[1].split(",")[0])
+        assert abs(told - value) <= 1e-3 * abs(value), (said, value)
 
 
 def test_keys(seen):
@@ -274,6 +286,7 @@ def test(sunload, source, packages, folder):
     test_address(seen, folder)
     test_saved(seen, folder)
     test_shades(seen, folder)
+    test_beyond(seen)
     test_keys(seen)
     test_study(seen, folder)
     test_without_series(seen, folder)
