@@ -62,6 +62,12 @@ json geometry(const ResultReader& result, ViewBlocks& blocks) {
   return j;
 }
 
+/// Of when a total is: the period, or the day of a measure; of the shapes alone no time.
+std::string when_of(const ResultReader& result, const std::string& name) {
+  if (auto day = result.text_attribute(name, "when"); !day.empty()) return day;
+  return name.starts_with("sky_view_factor") ? std::string() : period_in_words(result);
+}
+
 json totals(const ResultReader& result, ViewBlocks& blocks) {
   json list = json::array();
   for (const auto& variable : result_schema()) {
@@ -71,6 +77,7 @@ json totals(const ResultReader& result, ViewBlocks& blocks) {
       continue;
     list.push_back({{"name", name},
                     {"what", variable.long_name},
+                    {"when", when_of(result, name)},
                     {"units", display_units(result.units(name))},
                     {"values", blocks.add(floats(result.doubles(name)))}});
   }
@@ -79,6 +86,7 @@ json totals(const ResultReader& result, ViewBlocks& blocks) {
     const auto values = floats(result.doubles(name));  // NaN where nothing is measured
     list.push_back({{"name", name},
                     {"what", result.text_attribute(name, "definition")},
+                    {"when", when_of(result, name)},
                     {"units", display_units(result.units(name))},
                     {"values", blocks.add(values)}});
   }
@@ -223,6 +231,12 @@ json sensors(const ResultReader& result, std::size_t step, ViewBlocks& blocks) {
           {"series", std::move(own)}};
 }
 
+/// Of a result in bands which of them its values are of; empty of others.
+std::string band_in_words(const ResultReader& result) {
+  if (result.band()) return std::string(band_names[*result.band()]) + " band";
+  return result.bands() == Bands::rgb ? "mean of the bands" : "";
+}
+
 }  // namespace
 
 std::string viewed_series(const ResultReader& result) {
@@ -239,6 +253,7 @@ json view_data(const ResultReader& result, std::size_t step, ViewBlocks& blocks)
           {"file", std::filesystem::path(result.path()).stem().string()},
           {"folder", std::filesystem::absolute(result.path()).parent_path().filename().string()},
           {"part", result.chosen().words()},
+          {"band", band_in_words(result)},
           {"lacking", result.lacking()},
           {"source", result.text_attribute("source")},
           {"timezone", zone.empty() ? "UTC" : zone},

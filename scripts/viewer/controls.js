@@ -5,7 +5,7 @@ import { findNames } from "./find.js";
 import { $, isShape } from "./panels.js";
 import { savePicture } from "./picture.js";
 import { shown } from "./scale.js";
-import { quantities, views } from "./words.js";
+import { chosenText, quantities, views } from "./words.js";
 
 const clickPixels = 4, tapPixels = 12, mostFound = 12;
 
@@ -17,8 +17,8 @@ function fill(select, choices, chosen) {
 export function fillChoices(viewer) {
   const { results, state } = viewer;
   document.title = `sunload: ${results[0].study}`;
-  const part = results[0].part ? `; ${results[0].part}` : "";
-  $("title").textContent = `${results[0].study}: ${results.map((result) => result.label).join(", ")}${part}`;
+  const chosen = chosenText(results);
+  $("title").textContent = `${results[0].study}: ${results.map((result) => result.label).join(", ")}${chosen && `; ${chosen}`}`;
   $("title").title = $("title").textContent;
   const share = viewer.unmatchedShare;
   $("no-difference").hidden = !(share > 0);

@@ -4,6 +4,7 @@
 import { deepestShade, notKnown } from "./mesh.js";
 import { isShape, kinds, preview } from "./panels.js";
 import { colourShare, endAbove, isPowerOfTen, leastOfDecades, logarithmicTicks, scaleEnd, shown, ticks, withEnds } from "./scale.js";
+import { quantityName, shownText } from "./words.js";
 
 const mostSwatches = 40;
 
@@ -161,6 +162,13 @@ function swatchElement({ swatches, of }) {
   }
   if (swatches.length > mostSwatches) list.append(element("li", `and ${swatches.length - mostSwatches} more`));
   return list;
+}
+
+/** What the colours are of: a total does not become one of the slider's time. */
+export function whatText(viewer) {
+  const { quantity } = viewer.state;
+  if (isShape(quantity)) return quantityName(viewer);
+  return quantity === viewer.results[0].series?.name ? `${quantity.replaceAll("_", " ")} at the time of the slider` : `${shownText(viewer)}; not of the slider's time`;
 }
 
 /** `change` is told what of the state a legend's switches change. */

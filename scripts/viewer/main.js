@@ -7,7 +7,7 @@ import { CameraMan } from "./camera.js";
 import { fillChoices, listen, showState } from "./controls.js";
 import { matchedMean, readPage } from "./data.js";
 import { knownNames } from "./find.js";
-import { legendsOf, limitOf, scaleOf, showLegends } from "./legend.js";
+import { legendsOf, limitOf, scaleOf, showLegends, whatText } from "./legend.js";
 import { PatchMesh, difference, paletteTexture } from "./mesh.js";
 import { $, isShape, kinds, materials, preview, tellSelection, tellTime } from "./panels.js";
 import { Picker } from "./picker.js";
@@ -173,6 +173,7 @@ class Viewer {
     this.sky.show(k);
     if (path !== this.isPathShown) this.sky.object.visible = this.isPathShown = path;
     this.showCaptions();
+    $("what").textContent = whatText(this);
     const legends = this.legends(), told = JSON.stringify(legends.map((legend) => ({ ...legend, palette: colours })));
     if (told !== this.toldLegends) showLegends($("legend"), legends, (key, value) => this.setLimit(key, value), (what) => this.change(what));
     this.toldLegends = told;

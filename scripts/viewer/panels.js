@@ -16,9 +16,17 @@ export function tellTime(viewer) {
   const dark = time.elevation > 0 ? sun : "sun below the horizon";
   // No one sun stands for a day or a month.
   const told = result.has_sun ? `, ${dark}` : ", mean";
-  $("clock").textContent = clockText(result, viewer.state.k) + told;
+  $("clock").textContent = clockText(result, viewer.state.k) + told + outsideText(result, time);
+  // A total is not of the slider's time: sun and chart are.
+  $("time").classList.toggle("aside", viewer.state.quantity !== result.series?.name);
   $("slider").value = viewer.state.k;
   $("slider").setAttribute("aria-valuetext", $("clock").textContent);
+}
+
+/** Whether a time is in the part of the period that totals are of. */
+function outsideText({ part }, { share }) {
+  if (!part || share >= 1) return "";
+  return share > 0 ? `, in part in ${part}` : `, outside of ${part}`;
 }
 
 export function clockText(result, k) {
@@ -200,10 +208,10 @@ function showCharts(viewer, { curves, units, stored = {} }) {
   if (!kind) return;
   const bars = stored[kind];
   viewer.chart = { kind, ...(bars ? drawBars($("series"), kind, bars) : drawChart($("series"), kind, viewer.results[0].times, state.k, curves)) };
-  sayChart(kind, bars ? bars.labels.map((label) => ({ label, step: 1 })) : curves, units);
+  sayChart(viewer.results[0], kind, bars ? bars.labels.map((label) => ({ label, step: 1 })) : curves, units);
 }
 
-function sayChart(kind, curves, units) {
+function sayChart({ part }, kind, curves, units) {
   const energy = units.includes("lx") ? "light exposure [klx h]" : "light load [kWh/m²]";
   const what = { day: units, hours: `${units}, mean of each hour`, days: `${energy} of each day`, months: `${energy} of each month` }[kind];
   const says = [Object.assign(document.createElement("span"), { textContent: what.replaceAll("_", " ") })];
@@ -211,5 +219,6 @@ function sayChart(kind, curves, units) {
     says.push(" ", Object.assign(document.createElement("b"), { textContent: `${n ? "- -" : "—"} ${curve.label}`, style: `color: ${curveColours[n]}` }));
   });
   if (curves.some((curve) => curve.step > 1)) says.push(` (from every ${curves[0].step}. interval)`);
+  if (part) says.push(`; of all the period, not of ${part} alone`);
   $("chart-says").replaceChildren(...says);
 }

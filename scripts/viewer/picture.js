@@ -3,9 +3,9 @@
 // What is shown as one picture: title, scene with captions, legend and time.
 import { drawBarCanvas, isMinor, tickText } from "./legend.js";
 import { colourShare } from "./scale.js";
-import { caption, fileName, title } from "./words.js";
+import { caption, fileName, shownText, title } from "./words.js";
 
-const margin = 16, titleHeight = 40, captionHeight = 24, barHeight = 36, lineHeight = 14, barWidth = 320;
+const margin = 16, titleHeight = 40, titleLine = 16, captionHeight = 24, barHeight = 36, lineHeight = 14, barWidth = 320, unitsWidth = 90;
 
 /** Lines of swatches that fit a width; calls draw(x, line, swatch) where given. */
 function flow(c, swatches, width, draw = () => {}) {
@@ -17,6 +17,17 @@ function flow(c, swatches, width, draw = () => {}) {
     x += wide;
   }
   return line + 1;
+}
+
+/** Lines of a text that fit a width. */
+function wrapped(c, text, width) {
+  const lines = [];
+  for (const word of text.split(" ").filter(Boolean)) {
+    const longer = lines.length ? `${lines[lines.length - 1]} ${word}` : word;
+    if (lines.length && c.measureText(longer).width <= width) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
 }
 
 /** Numbers below a bar; of a logarithmic one those between powers of ten where they have room. */
@@ -54,18 +65,21 @@ export function composed(viewer) {
   const legends = viewer.legends(), legendHeight = barHeight + lineHeight * (1 + Math.max(1, ...legends.map((one) => one.beyond?.length ?? 0)));
   c.font = "12px 'DejaVu Sans', Verdana, sans-serif";
   const swatches = legends.find((one) => one.swatches)?.swatches;
-  const foot = swatches ? 20 * flow(c, swatches, width - 2 * margin) + margin : legends.length ? legendHeight * (legends.length > 1 && width < 1000 ? 2 : 1) : 0;
+  const foot = swatches ? 20 * flow(c, swatches, width - 2 * margin) + margin : legends.length ? legendHeight * (legends.length > 1 && width < 2 * (barWidth + unitsWidth) + 80 ? 2 : 1) : 0;
+  const told = wrapped(c, shownText(viewer), width - 2 * margin), head = titleHeight + titleLine * told.length;
   page.width = Math.round(width * ratio);
-  page.height = Math.round((titleHeight + height + foot + margin) * ratio);
+  page.height = Math.round((head + height + foot + margin) * ratio);
   c.scale(ratio, ratio);
   c.fillStyle = "#fff";
   c.fillRect(0, 0, width, page.height);
   c.fillStyle = "#222";
   c.font = "bold 15px 'DejaVu Sans', Verdana, sans-serif";
   c.fillText(title(viewer), margin, 26, width - 2 * margin);
-  c.drawImage(scene, 0, titleHeight, width, height);
+  c.font = "12px 'DejaVu Sans', Verdana, sans-serif";
+  told.forEach((line, n) => c.fillText(line, margin, 45 + titleLine * n));
+  c.drawImage(scene, 0, head, width, height);
   for (const part of viewer.parts()) {
-    const y = titleHeight + part.y + part.height;
+    const y = head + part.y + part.height;
     c.fillStyle = "#fff";
     c.fillRect(part.x, y, part.width, captionHeight);
     c.fillStyle = "#222";
@@ -74,12 +88,14 @@ export function composed(viewer) {
     c.fillText(caption(viewer, part), part.x + part.width / 2, y + 17, part.width - 12);
     c.textAlign = "left";
   }
-  const top = titleHeight + height + 10;
+  const top = head + height + 10;
   c.font = "12px 'DejaVu Sans', Verdana, sans-serif";
   if (swatches) {
+    c.strokeStyle = "#555";
     flow(c, swatches, width - 2 * margin, (x, line, { colour, name }) => {
       c.fillStyle = colour;
       c.fillRect(margin + x, top + 20 * line, 14, 14);
+      c.strokeRect(margin + x + 0.5, top + 20 * line + 0.5, 13, 13);
       c.fillStyle = "#222";
       c.fillText(name, margin + x + 20, top + 20 * line + 12);
     });
@@ -87,7 +103,7 @@ export function composed(viewer) {
     let x = margin, y = top;
     for (const legend of legends) {
       x = drawScale(c, legend, x, y);
-      if (x + barWidth > width) [x, y] = [margin, y + legendHeight];
+      if (x + unitsWidth + barWidth > width) [x, y] = [margin, y + legendHeight];
     }
   }
   return page;

@@ -13,10 +13,25 @@ export function quantities(viewer) {
     ...partsOfAll(results), [kinds, "kinds of surface"], [materials, "materials"], [preview, "shape only"]];
 }
 
-/** Light loads of parts of the period that all results have. */
+/** Light loads of parts of the period that all results have; where one is chosen they are of all their time nevertheless. */
 function partsOfAll(results) {
   const shared = results[0].partNames().filter(([word]) => results.every((result) => result.partValues(word)));
-  return shared.map(([word, part]) => [word, `light load, ${part}`]);
+  return shared.map(([word, part]) => [word, `light load, ${part}${results[0].part ? " (all of it)" : ""}`]);
+}
+
+/** Which part of the period and which band values are of, where that is not all. */
+export function chosenText([result]) { return [result.band, result.part].filter(Boolean).join(", "); }
+
+/** What is shown and of when, as below the title of `sunload render`; nothing of shapes. */
+export function shownText(viewer) {
+  const { results, state } = viewer, { quantity } = state, name = quantityName(viewer);
+  if (isShape(quantity)) return "";
+  if (quantity === results[0].series?.name) return `${quantity.replaceAll("_", " ")}, ${clockText(results[0], state.k)}`;
+  const totals = results.map((result) => result.totals.find((total) => total.name === quantity)), [total] = totals;
+  if (!total) return name;
+  const rule = quantity.startsWith("measure_") && total.what ? `: ${total.what}` : "", whens = [...new Set(totals.map(({ when }) => when))];
+  const when = whens.length > 1 ? totals.map((one, n) => `${results[n].label} ${one.when}`).join("; ") : whens[0];
+  return `${name}${rule}${when ? `, ${when}` : ""}`;
 }
 
 export function views(viewer) {
@@ -36,8 +51,7 @@ export function caption(viewer, part) {
 export function title(viewer) {
   const { results, state } = viewer, names = [...new Set(viewer.parts().map((part) => part.n))].map((n) => results[n].label);
   const isSeries = state.quantity === results[0].series?.name;
-  const part = results[0].part ? `, ${results[0].part}` : "";
-  return `${results[0].study} (${names.join(", ")}${part}): ${isSeries ? `${state.quantity.replaceAll("_", " ")} ${clockText(results[0], state.k)}` : quantityName(viewer)}`;
+  return `${results[0].study} (${[...names, chosenText(results)].filter(Boolean).join(", ")}): ${isSeries ? `${state.quantity.replaceAll("_", " ")} ${clockText(results[0], state.k)}` : quantityName(viewer)}`;
 }
 
 export function fileName(viewer) {

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Uses a page of `sunload view` as people do, and tells what it saw as JSON:
-//   node view_use_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES FACADE PAGE_OF_THE_STUDY PAGE_WITHOUT_SERIES
+//   node view_use_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES FACADE PAGE_OF_THE_STUDY PAGE_WITHOUT_SERIES PAGE_OF_A_PART
 import { join } from "node:path";
 import { Browser, picture as draw } from "./view_browser.mjs";
 
-const [modules, chromium, page, pictures, facade, studyPage, barePage] = process.argv.slice(2);
+const [modules, chromium, page, pictures, facade, studyPage, barePage, partPage] = process.argv.slice(2);
 const sizes = [[1280, 720], [600, 900], [900, 420], [400, 760]];
 const seen = { layouts: [], charts: {}, keys: {} };
 const picture = (tab, name) => draw(tab, join(pictures, `${name}.png`));
@@ -25,6 +25,7 @@ try {
   await touched(await browser.open(`file://${page}`, { viewport: { width: 400, height: 760 }, hasTouch: true }));
   await ofStudy(await browser.open(`file://${studyPage}`));
   await withoutSeries(await browser.open(`file://${barePage}#select=facade:${encodeURIComponent(facade)}&chart=days`));
+  await ofPart(await browser.open(`file://${partPage}#select=facade:${encodeURIComponent(facade)}&chart=months`));
 } finally {
   await browser.close();
 }
@@ -33,7 +34,7 @@ console.log(JSON.stringify(seen));
 /** Rectangles of what can be seen of the panels, of the picture and of its captions. */
 function boxes(tab) {
   return tab.evaluate(() => {
-    const names = ["head", "left", "patch", "more", "scene", "legend", "time", "pad"], found = {};
+    const names = ["head", "left", "patch", "more", "scene", "what", "legend", "time", "pad"], found = {};
     const add = (name, element) => {
       let { left, top, right, bottom } = element.getBoundingClientRect();
       // What a scrolling panel does not show overlaps nothing.
@@ -267,5 +268,17 @@ async function withoutSeries(tab) {
   seen.bare = await tab.evaluate(() => ({ names: window.sunload.chart?.names, values: window.sunload.chart?.values }));
   await tab.evaluate(() => { window.sunload.choose([{ of: "object", name: "house" }]); });
   seen.bareObject = await tab.$$eval("#charts button", (list) => list.map((button) => button.dataset.chart));
+  await tab.close();
+}
+
+/** Of some hours, and of one band, of the period. */
+async function ofPart(tab) {
+  const told = () => tab.evaluate(() => ({ clock: document.getElementById("clock").textContent, what: document.getElementById("what").textContent, title: document.getElementById("title").textContent,
+    chart: document.getElementById("chart-says").textContent, months: [...document.querySelectorAll("#quantity option")].filter((option) => option.value.startsWith("light_load_by_month:")).map((option) => option.textContent) }));
+  seen.part = await told();
+  await tab.evaluate(() => { window.sunload.change({ k: 0 }); });
+  seen.outside = await told();
+  await tab.evaluate(() => { window.sunload.change({ quantity: "irradiance" }); });
+  seen.series = await told();
   await tab.close();
 }

@@ -248,6 +248,17 @@ def test_without_series(seen, folder):
     assert seen["bareObject"] == ["days", "months"], seen["bareObject"]
 
 
+def test_part(seen):
+    """A part of the period and a band are told wherever something is of them, or is not."""
+    part, outside, series = seen["part"], seen["outside"], seen["series"]
+    assert part["title"].endswith("baseline; red band, hours 8-10"), part
+    assert part["what"] == "light load, hours 8-10: 2026-03-21 … 2026-03-22, 2026-06-21; not of the slider's time", part
+    assert part["clock"].startswith("2026-06-21 09:") and "outside" not in part["clock"], part
+    assert "outside of hours 8-10" in outside["clock"] and outside["clock"].startswith("2026-03-21 06:00"), outside
+    assert "not of hours 8-10 alone" in part["chart"] and part["months"] == [f"light load, 2026-{m} (all of it)" for m in ("03", "06")], part
+    assert series["what"] == "irradiance at the time of the slider", series
+
+
 def test_refusals(sunload, folder):
     import subprocess
     for words, says in ((["square.yaml", "--variant", "none"], "baseline, bright"), (["square.yaml", "square.yaml"], "alone"),
@@ -265,6 +276,11 @@ def test(sunload, source, packages, folder):
             file.write(text)
     run([sunload, "view", "square.yaml", "-o", "study.html"], cwd=folder)
     run([sunload, "run", "square.yaml", "--overwrite"], cwd=folder)
+    rgb = STUDY.replace("SERIES", "total").replace("lines_per_patch: 64", "lines_per_patch: 64, bands: rgb")
+    with open(os.path.join(folder, "rgb.yaml"), "w") as file:
+        file.write(rgb.replace("max_edge_m: 2", "max_edge_m: 4"))
+    run([sunload, "run", "rgb.yaml", "--variant", "baseline", "--output", "rgb", "--overwrite"], cwd=folder)
+    run([sunload, "view", "rgb/square/baseline.h5", "--hours", "8-10", "--band", "red", "-o", "part.html"], cwd=folder)
     bare_page = os.path.join(folder, "bare.html")
     run([sunload, "run", "bare.yaml", "--variant", "baseline", "--output", "bare", "--overwrite"], cwd=folder)
     run([sunload, "view", "bare/square/baseline.h5", "-o", bare_page], cwd=folder)
@@ -275,7 +291,8 @@ def test(sunload, source, packages, folder):
     with h5py.File(paths[0]) as base, h5py.File(paths[1]) as bright:
         facade = next(name for name in base["facade_name"].asstr() if name.startswith("house/south"))
         probe = os.path.join(os.path.dirname(os.path.abspath(__file__)), "view_use_probe.mjs")
-        seen = json.loads(run(["node", probe, packages, chromium, page, folder, facade, os.path.join(folder, "study.html"), bare_page]))
+        seen = json.loads(run(["node", probe, packages, chromium, page, folder, facade, os.path.join(folder, "study.html"), bare_page,
+                               os.path.join(folder, "part.html")]))
         assert seen["errors"] == [] and seen["requests"] == [], (seen["errors"], seen["requests"])
         test_layouts(seen)
         test_found(seen, base, facade)
@@ -290,6 +307,7 @@ def test(sunload, source, packages, folder):
     test_keys(seen)
     test_study(seen, folder)
     test_without_series(seen, folder)
+    test_part(seen)
     test_refusals(sunload, folder)
     print(f"{len(seen['layouts'])} layouts without overlaps, {len(seen['regions'])} regions as they were sent")
 
