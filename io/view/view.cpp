@@ -53,6 +53,17 @@ nlohmann::json palette(Palette which) {
   });
 }
 
+/// Number of the colour of each material by its name, so that it has one in all results.
+nlohmann::json colours_of_materials(const std::deque<ResultReader>& results) {
+  auto numbers = nlohmann::json::object();
+  for (const auto& result : results) {
+    if (!result.has("material_name")) continue;
+    for (const auto& name : result.strings("material_name"))
+      if (!numbers.contains(name)) numbers[name] = numbers.size() % material_colour_count;
+  }
+  return numbers;
+}
+
 TwoResults what_two_share(const std::deque<ResultReader>& results, std::size_t step) {
   const ResultReader &first = results.front(), &second = results.back();
   const std::string series = viewed_series(first);
@@ -106,7 +117,8 @@ void view_html(const std::vector<std::string>& paths, const ViewRules& rules,
        {{"false", colours(1, [](std::size_t) { return no_value_colour(Palette::false_colour); })},
         {"grey", colours(1, [](std::size_t) { return no_value_colour(Palette::grey); })}}},
       {"surfaces", colours(surface_colour_count, surface_colour)},
-      {"materials", colours(material_colour_count, material_colour)}};
+      {"materials", colours(material_colour_count, material_colour)},
+      {"colour_of_material", colours_of_materials(results)}};
   for (const auto& result : results) {
     warn_of_lacking(result);
     if (result.shape("patch_area").at(0) == 0)

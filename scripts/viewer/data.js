@@ -221,6 +221,7 @@ export async function readPage() {
   ofOneFrame(results);
   nameApart(results);
   const match = about.two ? await readMatch(about.two.pairs, results[0]) : null;
+  for (const result of results) result.colour_of_material = result.geometry.material_name.map((name) => about.colour_of_material[name]);
   return { results, match, endOfDifferences: about.two?.end, noValue: about.no_value, palettes: { false: about.false, grey: about.grey, difference: differencePalette(), surfaces: about.surfaces, materials: about.materials } };
 }
 

@@ -65,13 +65,13 @@ function unknownWords(viewer, isApart) {
   return `${colour}: not ${viewer.state.quantity.startsWith("measure_") ? "measured" : "known"}`;
 }
 
+/** Kinds or materials of all results, each name once. */
 function swatchesOf(viewer, parts) {
   const { quantity } = viewer.state, palette = viewer.palettes[quantity], colour = (k) => `rgb(${palette.slice(3 * k, 3 * k + 3)})`, found = new Map();
   for (const { n } of parts) {
-    const result = viewer.results[n], of = quantity === kinds ? result.patch_surface : result.patch_material;
-    const names = quantity === kinds ? result.allSurfaceNames() : result.geometry.material_name;
-    for (const k of [...new Set(of)].sort((a, b) => a - b))
-      if (k >= 0) found.set(`${k} ${names[k]}`, { colour: colour(k % (palette.length / 3)), name: names[k] || "without a name" });
+    const result = viewer.results[n], isOfKinds = quantity === kinds, names = isOfKinds ? result.allSurfaceNames() : result.geometry.material_name;
+    for (const k of [...new Set(isOfKinds ? result.patch_surface : result.patch_material)].sort((a, b) => a - b))
+      if (k >= 0) found.set(names[k], { colour: colour(isOfKinds ? k : result.colour_of_material[k]), name: names[k] || "without a name" });
   }
   return [...found.values(), ...(parts.some(({ n }) => viewer.results[n].sensors) ? [{ colour: "#fff", name: "sensors" }] : [])];
 }

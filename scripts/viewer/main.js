@@ -149,7 +149,7 @@ class Viewer {
     const { quantity } = this.state, result = this.results[part.n];
     if (quantity === preview) return new Float32Array(result.patches);
     if (quantity === kinds) return Float32Array.from(result.patch_surface);
-    if (quantity === materials) return Float32Array.from(result.patch_material, (k) => (k < 0 ? -1 : k % (this.palettes.materials.length / 3)));
+    if (quantity === materials) return Float32Array.from(result.patch_material, (k) => result.colour_of_material[k] ?? -1);
     return this.isDifference(part) ? this.difference(this.valuesOf(0), this.valuesOf(1)) : this.valuesOf(part.n);
   }
 

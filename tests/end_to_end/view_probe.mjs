@@ -59,6 +59,9 @@ async function one(tab) {
 async function match(tab) {
   seen.unmatchedShare = await tab.evaluate(() => window.sunload.unmatchedShare);
   seen.differences = await tab.evaluate(() => [...window.sunload.difference(window.sunload.valuesOf(0, "light_load"), window.sunload.valuesOf(1, "light_load"))]);
+  await tab.evaluate(() => { window.sunload.change({ quantity: "materials", view: "side" }); });
+  seen.legend = await tab.$$eval("#materials li", (list) => list.map((row) => row.textContent));
+  seen.coloursOfMaterials = await tab.evaluate(() => window.sunload.results.map((result) => result.colour_of_material));
   seen.matchedKwh = await tab.evaluate(() => {
     const viewer = window.sunload, own = viewer.valuesOf(0, "light_load");
     return viewer.difference(own, viewer.valuesOf(1, "light_load")).reduce((sum, apart, p) => sum + viewer.results[0].patch_area[p] * (own[p] + apart), 0);

@@ -34,6 +34,7 @@ variants:
   - {name: bright, scene: {materials: {plaster: {diffuse: 0.9}}}}
   - {name: fine, mesh: {max_edge_m: 1.8}}
   - {name: raised, scene: {edit: [{object: "house*", raise: {by_m: 2}}]}}
+  - {name: bare, scene: {edit: [{object: square, remove: true}]}}
 """
 # Of 255: the palette's texture and the legend's rounding are one each.
 COLOUR_STEPS = 2
@@ -276,11 +277,26 @@ def test_pairs(probe, folder, sunload):
         assert np.allclose(own, wanted, rtol=1e-4, atol=1e-5, equal_nan=True), np.nanmax(np.abs(own - wanted))
 
 
+def test_names_of_materials(probe, folder, sunload):
+    """A material has one colour in both results, whatever its number in each, and one place in the legend."""
+    bare, base = (os.path.join(folder, f"results/square/{name}.h5") for name in ("bare", "baseline"))
+    page = os.path.join(folder, "bare.html")
+    run([sunload, "view", bare, base, "-o", page])
+    seen = json.loads(run([*probe, page, folder, "match"]))
+    with h5py.File(bare) as first, h5py.File(base) as second:
+        lists = [list(file["material_name"].asstr()) for file in (first, second)]
+    assert any(lists[0].index(name) != lists[1].index(name) for name in set(lists[0]) & set(lists[1])), lists
+    for names, colours in zip(lists, seen["coloursOfMaterials"]):
+        for name, colour in zip(names, colours):
+            assert colour == dict(zip(lists[0], seen["coloursOfMaterials"][0])).get(name, colour), (lists, seen["coloursOfMaterials"])
+    assert sorted(seen["legend"]) == sorted({*lists[0], *lists[1], "sensors"}), seen["legend"]
+
+
 def test_frames(probe, folder, sunload):
     """Of a place on a map without one of its houses: the frame's origin is elsewhere, what is left is not."""
     study = STUDY.replace("name: square", "name: town").replace("fine, mesh: {max_edge_m: 1.8}", "east, scene: {edit: [{object: west, remove: true}]}")
     study = study.replace("files: [square.obj]", "files: [{file: town.obj, position_m: [345000, 6297000, 0]}]")
-    study = "".join(line for line in study.splitlines(True) if not line.startswith(("sensors", "  materials")) and "bright" not in line and "raised" not in line)
+    study = "".join(line for line in study.splitlines(True) if not line.startswith(("sensors", "  materials")) and "bright" not in line and "raised" not in line and "bare" not in line)
     write(folder, {"town.obj": TWO_HOUSES, "town.yaml": study})
     run([sunload, "run", "town.yaml"], cwd=folder)
     both, east = (os.path.join(folder, f"results/town/{name}.h5") for name in ("baseline", "east"))
@@ -325,6 +341,7 @@ def test(sunload, source, packages, folder):
     test_page(seen, Pictures(folder), path, other)
     test_match(probe, folder, sunload)
     test_pairs(probe, folder, sunload)
+    test_names_of_materials(probe, folder, sunload)
     test_frames(probe, folder, sunload)
     test_refusals(sunload, folder, path, probe)
     print(f"{len(seen['patches'])} patches have the colours of their values, {len(seen['clicks'])} clicks told them; "
