@@ -3,18 +3,19 @@
 // One camera for all views: orbiting a point, or walking on the ground.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { bearing } from "./sky.js";
 
 // Height of a walker's eyes and speed of a brisk walk.
 const eyeHeightM = 1.65, walkMPerS = 3, turnPerPixel = 0.004, highestStepM = 1.2;
-const fieldDeg = 35, usualAspect = 1.5, framed = 1.06, flightMs = 700;
+const fieldDeg = 35, usualAspect = 1.5, framed = 1.06, flightMs = 700, homeRise = 0.7;
+// A flight ends where that share of what faces it is seen; a sight may end so much before it.
+const enoughSeen = 0.75, sightSlack = 1e-3;
 const turnPerKey = Math.PI / 24, zoomPerKey = 1.15;
 const ways = { KeyW: "ahead", ArrowUp: "ahead", KeyS: "back", ArrowDown: "back", KeyA: "left", ArrowLeft: "left", KeyD: "right", ArrowRight: "right" };
 
 export class CameraMan {
-  /** `focus`: box that a whole view frames. `world`: groundAt(x, y, below) and clear(from, way): metres to what is in the way. */
-  constructor(canvas, radius, focus, north, world, moved) {
-    Object.assign(this, { canvas, radius, focus, north, world, moved, mode: "orbit", keys: new Set(), isMoved: false, aspect: usualAspect });
+  /** `focus`: box that a whole view frames, from `side` (a level unit vector). `world`: groundAt(x, y, below) and clear(from, way): metres to what is in the way. */
+  constructor(canvas, radius, focus, side, world, moved) {
+    Object.assign(this, { canvas, radius, focus, side, world, moved, mode: "orbit", keys: new Set(), isMoved: false, aspect: usualAspect });
     this.camera = new THREE.PerspectiveCamera(fieldDeg, usualAspect, radius / 2000, radius * 20);
     this.camera.up.set(0, 0, 1);
     this.orbit = new OrbitControls(this.camera, canvas);
@@ -28,9 +29,8 @@ export class CameraMan {
     window.addEventListener("blur", () => this.keys.clear());
   }
 
-  /** From the sun's afternoon side (north of the equator), as `sunload render` looks. */
   home() {
-    const way = bearing((225 * Math.PI) / 180, this.north).setZ(0.7).normalize();
+    const way = this.side.clone().setZ(homeRise).normalize();
     this.setMode("orbit");
     this.orbit.target.copy(this.focus.getCenter(new THREE.Vector3()));
     this.camera.position.copy(this.orbit.target).addScaledVector(way, this.distanceFor(this.focus, way));
@@ -106,24 +106,35 @@ export class CameraMan {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Flies before a shape: against its normal, from as low as nothing stands between. */
-  flyTo({ box, middle, normal }) {
+  /** Flies before a shape: against its normal, from as low as nothing stands before most of it. `points` of it: { at, normal }. */
+  flyTo({ box, middle, normal, points }) {
     this.setMode("orbit");
     const level = new THREE.Vector3(normal.x, normal.y, 0), up = new THREE.Vector3(0, 0, 1);
     const ahead = level.length() > 0.2 * normal.length() && level.length() > 1e-9 ? level.normalize() : this.camera.position.clone().sub(this.orbit.target).setZ(0).normalize();
     const room = box.clone().expandByScalar(0.25 * box.getSize(new THREE.Vector3()).length());
-    let place = null;
-    for (const riseDeg of normal.z > 0.7 * normal.length() ? [50, 70] : [15, 30, 45, 60, 75]) {
+    let place = null, most = -1;
+    for (const riseDeg of normal.z > 0.7 * normal.length() ? [50, 70, 85] : [15, 30, 45, 60, 75]) {
       const rise = (riseDeg * Math.PI) / 180, way = ahead.clone().multiplyScalar(Math.cos(rise)).addScaledVector(up, Math.sin(rise));
-      const distance = this.distanceFor(room, way);
-      place = middle.clone().addScaledVector(way, distance);
-      const sight = this.world.clear(place, way.clone().negate()), met = place.clone().addScaledVector(way, -sight);
-      if (Number.isFinite(sight) && room.containsPoint(met)) break;
+      const from = middle.clone().addScaledVector(way, this.distanceFor(room, way)), seen = this.shareSeen(from, points);
+      if (seen > most) [place, most] = [from, seen];
+      if (most >= enoughSeen) break;
     }
     this.isMoved = true;
     this.flight = { from: [this.camera.position.clone(), this.orbit.target.clone()], to: [place, middle], start: null };
     if (window.matchMedia("(prefers-reduced-motion: reduce)").matches) this.fly(Infinity);
     this.moved();
+  }
+
+  /** Of the points that face a place, the share that is seen from there. */
+  shareSeen(place, points) {
+    let facing = 0, seen = 0;
+    for (const { at, normal } of points) {
+      const way = at.clone().sub(place), distance = way.length();
+      if (normal && way.dot(normal) >= 0) continue;
+      ++facing;
+      if (this.world.clear(place, way.divideScalar(distance)) >= (1 - sightSlack) * distance) ++seen;
+    }
+    return facing ? seen / facing : 0;
   }
 
   fly(now) {

@@ -11,8 +11,8 @@ import { legendsOf, limitOf, scaleOf, showLegends, whatText } from "./legend.js"
 import { PatchMesh, difference, paletteTexture } from "./mesh.js";
 import { $, isShape, kinds, materials, preview, tellSelection, tellTime } from "./panels.js";
 import { Picker } from "./picker.js";
-import { sameEntry, selectedPatches, shapeOf } from "./selection.js";
-import { Sky, sceneNorth } from "./sky.js";
+import { pointsOf, sameEntry, selectedPatches, shapeOf } from "./selection.js";
+import { Sky, bearing, overviewAzimuth, sceneNorth } from "./sky.js";
 import { caption, quantities } from "./words.js";
 
 const playIntervalMs = 250, addressAfterMs = 300, captionPixels = 24;
@@ -20,6 +20,8 @@ const playIntervalMs = 250, addressAfterMs = 300, captionPixels = 24;
 const pathBeyond = 1.15, aroundHeight = 0.3;
 // What is not higher above the ground than this is no roof.
 const highestStreetM = 2;
+// Rays to so many points of a shape tell whether it is seen.
+const mostSightPoints = 16;
 
 class Viewer {
   constructor({ results, match, endOfDifferences, palettes, noValue }) {
@@ -82,7 +84,7 @@ class Viewer {
     this.rays = new THREE.Raycaster();
     this.picker = new Picker(this);
     const world = { groundAt: (x, y, below) => this.groundAt(x, y, below), clear: (from, way) => this.clear(from, way), isOutdoors: (x, y) => this.isOutdoors(x, y) };
-    this.man = new CameraMan(this.canvas, radius, focus, north, world, () => this.touch());
+    this.man = new CameraMan(this.canvas, radius, focus, bearing((overviewAzimuth(result.times) * Math.PI) / 180, north), world, () => this.touch());
     new ResizeObserver(() => this.resize()).observe($("stage"));
     this.resize();
   }
@@ -302,12 +304,14 @@ class Viewer {
       const shape = shapeOf(result, patches), { position } = this.meshes[m].object;
       shape.box.translate(position);
       shape.middle.add(position);
-      return this.man.flyTo(shape);
+      const points = pointsOf(result, patches, mostSightPoints);
+      for (const { at } of points) at.add(position);
+      return this.man.flyTo({ ...shape, points });
     }
     const [sensor] = entries.filter((entry) => entry.of === "sensor");
     if (!sensor) return undefined;
     const { sensors } = this.results[sensor.n], middle = new THREE.Vector3().fromArray(sensors.position, 3 * sensor.sensor).add(this.meshes[sensor.n].object.position);
-    return this.man.flyTo({ box: new THREE.Box3().setFromCenterAndSize(middle, new THREE.Vector3(6, 6, 6)), middle, normal: new THREE.Vector3(0, 0, 1) });
+    return this.man.flyTo({ box: new THREE.Box3().setFromCenterAndSize(middle, new THREE.Vector3(6, 6, 6)), middle, normal: new THREE.Vector3(0, 0, 1), points: [{ at: middle }] });
   }
 
   setLimit(key, value) {

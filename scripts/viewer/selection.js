@@ -70,6 +70,12 @@ export function shapeOf(result, patches) {
   return { box, middle: box.getCenter(new THREE.Vector3()), normal };
 }
 
+/** Middles of some of the patches, with their normals. */
+export function pointsOf(result, patches, most) {
+  const step = Math.ceil(patches.length / most);
+  return patches.filter((_, k) => k % step === Math.floor(step / 2)).map((p) => ({ at: new THREE.Vector3(...result.centroid(p)), normal: new THREE.Vector3().fromArray(result.patch_normal, 3 * p) }));
+}
+
 /** Edges that one of the patches has and no other of them. */
 function rim(result, patches) {
   const edges = new Map(), v = result.patch_vertices;

@@ -14,6 +14,28 @@ export function bearing(azimuth, north) {
   return new THREE.Vector3(Math.sin(azimuth - north), Math.cos(azimuth - north), 0);
 }
 
+/** Azimuth from which light comes on the whole [deg], by the sun's and by what falls on open ground; of what has no sun that of noon. */
+function lightAzimuth(times) {
+  const noon = 180, least = 1e-3, hasLight = times.some((time) => time.ghi * time.share > 0);
+  let [north, east, all] = [0, 0, 0];
+  for (const { azimuth, elevation, ghi, share } of times) {
+    const weight = share * (hasLight ? ghi ?? 0 : Math.max(0, Math.sin((elevation * Math.PI) / 180))), turn = (azimuth * Math.PI) / 180;
+    north += weight * Math.cos(turn);
+    east += weight * Math.sin(turn);
+    all += weight;
+  }
+  return Math.hypot(north, east) > least * all ? ((Math.atan2(east, north) * 180) / Math.PI + 360) % 360 : noon;
+}
+
+/**
+ * From where a whole view looks [deg], as `sunload render` does: of north, east, south and west the side that light comes
+ * from, and of the sides beside it west for north and south (the afternoon's), for east and west the one that gets more of it.
+ */
+export function overviewAzimuth(times) {
+  const light = lightAzimuth(times), side = Math.round(light / 90) * 90, isNoon = side % 180 === 0;
+  return side + ((isNoon ? side === 180 : light >= side) ? 45 : -45);
+}
+
 function letter(text) {
   const canvas = Object.assign(document.createElement("canvas"), { width: 64, height: 64 });
   const c = canvas.getContext("2d");

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opens a page of `sunload view` in a real browser, uses it, and tells what it saw as JSON:
-//   node view_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES [match|one]
+//   node view_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES [match|one|fly]
 // one: a page of one result, only looked at.
+// fly: share of each facade that is seen from where the camera flies to.
 // match: only what the second result brings onto the patches of the first.
 import { join } from "node:path";
 import { Browser, picture as draw } from "./view_browser.mjs";
@@ -15,7 +16,7 @@ const browser = await Browser.start(modules, chromium, seen);
 try {
   const started = Date.now(), tab = await browser.open(`file://${page}`);
   seen.loadSeconds = (Date.now() - started) / 1000;
-  await { match, one, undefined: use }[mode](tab);
+  await { match, one, fly, undefined: use }[mode](tab);
 } finally {
   await browser.close();
 }
@@ -54,6 +55,21 @@ async function one(tab) {
   await tab.evaluate(() => { window.sunload.sky.object.visible = false; });
   seen.limit = await tab.evaluate(() => window.sunload.limit());
   await picture(tab, "one");
+}
+
+async function fly(tab) {
+  seen.flights = await tab.evaluate(() => {
+    const viewer = window.sunload, [result] = viewer.results, shares = {};
+    result.geometry.facade_name.forEach((name, of) => {
+      viewer.flyTo([{ of: "facade", name }]);
+      viewer.man.fly(0);
+      viewer.man.fly(Infinity);
+      viewer.render();
+      const patches = [...result.patch_facade.keys()].filter((p) => result.patch_facade[p] === of), places = patches.map((p) => viewer.placeOf(p));
+      shares[name] = places.filter((at, k) => viewer.patchAt(at.x, at.y)?.patch === patches[k]).length / patches.length;
+    });
+    return shares;
+  });
 }
 
 async function match(tab) {

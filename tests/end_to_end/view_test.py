@@ -310,6 +310,22 @@ def test_frames(probe, folder, sunload):
     assert seen["unmatchedShare"] == 0 and abs(seen["matchedKwh"] - whole) < 1e-5 * whole, (seen, whole)
 
 
+def test_flight(probe, folder, sunload):
+    """Before a wall behind a higher house most of it is seen, not its middle alone."""
+    obj = "\n".join(" ".join({"28": "18", "36": "26"}.get(word, word) for word in line.split()) for line in TWO_HOUSES.splitlines())
+    # Of the height from which the wall's middle is seen from 30° up, and its lower part is not.
+    for corner in ("18 0", "26 0", "26 8", "18 8"):
+        obj = obj.replace(f"v {corner} 6", f"v {corner} 8.5")
+    study = "".join(line for line in STUDY.splitlines(True) if not line.startswith(("sensors", "  materials", "variants", "  - ")))
+    write(folder, {"tower.obj": obj, "tower.yaml": study.replace("square.obj", "tower.obj").replace("max_edge_m: 3", "max_edge_m: 1")})
+    page = os.path.join(folder, "tower.html")
+    run([sunload, "view", "tower.yaml", "-o", page], cwd=folder)
+    seen = json.loads(run([*probe, page, folder, "fly"]))
+    assert len(seen["flights"]) == 8, seen["flights"]
+    for name, share in seen["flights"].items():
+        assert share >= 0.65, seen["flights"]
+
+
 def test_refusals(sunload, folder, path, probe):
     page = os.path.join(folder, "no.html")
     for words, code, says in ((["missing.h5", "-o", page], 2, "missing.h5"), ([path, path, path, "-o", page], 2, "two"),
@@ -343,6 +359,7 @@ def test(sunload, source, packages, folder):
     test_pairs(probe, folder, sunload)
     test_names_of_materials(probe, folder, sunload)
     test_frames(probe, folder, sunload)
+    test_flight(probe, folder, sunload)
     test_refusals(sunload, folder, path, probe)
     print(f"{len(seen['patches'])} patches have the colours of their values, {len(seen['clicks'])} clicks told them; "
           f"{seen['framesPerSecond']:.0f} frames/s")

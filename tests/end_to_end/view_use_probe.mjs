@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Uses a page of `sunload view` as people do, and tells what it saw as JSON:
-//   node view_use_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES FACADE PAGE_OF_THE_STUDY PAGE_WITHOUT_SERIES PAGE_OF_A_PART
+//   node view_use_probe.mjs FOLDER_OF_PLAYWRIGHT CHROMIUM PAGE FOLDER_OF_PICTURES FACADE PAGE_OF_THE_STUDY PAGE_WITHOUT_SERIES PAGE_OF_A_PART PAGE_OF_THE_SOUTH
 import { join } from "node:path";
 import { Browser, picture as draw } from "./view_browser.mjs";
 
-const [modules, chromium, page, pictures, facade, studyPage, barePage, partPage] = process.argv.slice(2);
+const [modules, chromium, page, pictures, facade, studyPage, barePage, partPage, southPage] = process.argv.slice(2);
 const sizes = [[1280, 720], [600, 900], [900, 420], [400, 760]];
 const seen = { layouts: [], charts: {}, keys: {} };
 const picture = (tab, name) => draw(tab, join(pictures, `${name}.png`));
@@ -13,6 +13,7 @@ const picture = (tab, name) => draw(tab, join(pictures, `${name}.png`));
 const browser = await Browser.start(modules, chromium, seen);
 try {
   const tab = await browser.open(`file://${page}`);
+  seen.lookedFrom = { day: await lookedFrom(tab) };
   await layouts(tab);
   await found(tab);
   await parts(tab);
@@ -26,6 +27,9 @@ try {
   await ofStudy(await browser.open(`file://${studyPage}`));
   await withoutSeries(await browser.open(`file://${barePage}#select=facade:${encodeURIComponent(facade)}&chart=days`));
   await ofPart(await browser.open(`file://${partPage}#select=facade:${encodeURIComponent(facade)}&chart=months`));
+  const south = await browser.open(`file://${southPage}`);
+  seen.lookedFrom.south = await lookedFrom(south);
+  await south.close();
 } finally {
   await browser.close();
 }
@@ -54,6 +58,14 @@ function boxes(tab) {
     });
     [...document.querySelectorAll("#names span")].forEach((span, k) => add(`caption ${k}`, span));
     return found;
+  });
+}
+
+/** Compass bearing of the camera of a whole view; north is +y. */
+function lookedFrom(tab) {
+  return tab.evaluate(() => {
+    const { camera, orbit } = window.sunload.man, way = camera.position.clone().sub(orbit.target);
+    return ((Math.atan2(way.x, way.y) * 180) / Math.PI + 360) % 360;
   });
 }
 
@@ -276,6 +288,7 @@ async function ofPart(tab) {
   const told = () => tab.evaluate(() => ({ clock: document.getElementById("clock").textContent, what: document.getElementById("what").textContent, title: document.getElementById("title").textContent,
     chart: document.getElementById("chart-says").textContent, months: [...document.querySelectorAll("#quantity option")].filter((option) => option.value.startsWith("light_load_by_month:")).map((option) => option.textContent) }));
   seen.part = await told();
+  seen.lookedFrom.morning = await lookedFrom(tab);
   await tab.evaluate(() => { window.sunload.change({ k: 0 }); });
   seen.outside = await told();
   await tab.evaluate(() => { window.sunload.change({ quantity: "irradiance" }); });

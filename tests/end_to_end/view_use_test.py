@@ -259,6 +259,12 @@ def test_part(seen):
     assert series["what"] == "irradiance at the time of the slider", series
 
 
+def test_looked_from(seen):
+    """A whole view is of the sides that get most light: south and west of a day, south and east of a morning, north and west in the south."""
+    wanted = {"day": 225, "morning": 135, "south": 315}
+    assert all(abs(seen["lookedFrom"][name] - bearing) < 0.5 for name, bearing in wanted.items()), seen["lookedFrom"]
+
+
 def test_refusals(sunload, folder):
     import subprocess
     for words, says in ((["square.yaml", "--variant", "none"], "baseline, bright"), (["square.yaml", "square.yaml"], "alone"),
@@ -281,6 +287,9 @@ def test(sunload, source, packages, folder):
         file.write(rgb.replace("max_edge_m: 2", "max_edge_m: 4"))
     run([sunload, "run", "rgb.yaml", "--variant", "baseline", "--output", "rgb", "--overwrite"], cwd=folder)
     run([sunload, "view", "rgb/square/baseline.h5", "--hours", "8-10", "--band", "red", "-o", "part.html"], cwd=folder)
+    with open(os.path.join(folder, "south.yaml"), "w") as file:
+        file.write(STUDY.replace("SERIES", "total").replace("latitude_deg: 49.7475, longitude_deg: 13.3776, timezone: Europe/Prague", "latitude_deg: -33.9, longitude_deg: 151.2, timezone: Australia/Sydney"))
+    run([sunload, "view", "south.yaml", "--variant", "baseline", "-o", "south.html"], cwd=folder)
     bare_page = os.path.join(folder, "bare.html")
     run([sunload, "run", "bare.yaml", "--variant", "baseline", "--output", "bare", "--overwrite"], cwd=folder)
     run([sunload, "view", "bare/square/baseline.h5", "-o", bare_page], cwd=folder)
@@ -292,7 +301,7 @@ def test(sunload, source, packages, folder):
         facade = next(name for name in base["facade_name"].asstr() if name.startswith("house/south"))
         probe = os.path.join(os.path.dirname(os.path.abspath(__file__)), "view_use_probe.mjs")
         seen = json.loads(run(["node", probe, packages, chromium, page, folder, facade, os.path.join(folder, "study.html"), bare_page,
-                               os.path.join(folder, "part.html")]))
+                               os.path.join(folder, "part.html"), os.path.join(folder, "south.html")]))
         assert seen["errors"] == [] and seen["requests"] == [], (seen["errors"], seen["requests"])
         test_layouts(seen)
         test_found(seen, base, facade)
@@ -308,6 +317,7 @@ def test(sunload, source, packages, folder):
     test_study(seen, folder)
     test_without_series(seen, folder)
     test_part(seen)
+    test_looked_from(seen)
     test_refusals(sunload, folder)
     print(f"{len(seen['layouts'])} layouts without overlaps, {len(seen['regions'])} regions as they were sent")
 
