@@ -219,7 +219,7 @@ class Viewer {
       this.man.fitTo(width / height);
       this.meshes.forEach((mesh, n) => {
         mesh.object.visible = n === part.mesh;
-        if (n === part.mesh) mesh.showFolds(this.man.camera, height);
+        if (n === part.mesh) mesh.showFolds(this.man.camera, width, height);
       });
       this.renderer.clear();
       this.renderer.render(this.scene, this.man.camera);

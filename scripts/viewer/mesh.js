@@ -72,7 +72,7 @@ export const difference = 2;
 export const deepestShade = 0.22;
 // Cosine of the turn from which on an edge gets a line (20°), as in `sunload render`.
 const leastFold = 0.94;
-const shortestFoldPixels = 5;
+const shortestFoldPixels = 5, paleLineShare = 0.4;
 
 export function paletteTexture(colours) {
   const bytes = new Uint8Array(256 * 4).fill(255);
@@ -192,12 +192,28 @@ export class PatchMesh {
     const folds = this.folds(), length = ([a, b]) => a.distanceTo(b);
     folds.sort((one, other) => length(other) - length(one));
     this.foldLengths = Float32Array.from(folds, length);
-    this.foldLines = new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(folds.flat()), new THREE.LineBasicMaterial({ color: 0x30343c }));
+    this.foldLines = new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(folds.flat()), new THREE.LineBasicMaterial({ color: 0x30343c, transparent: true }));
+    this.foldLines.renderOrder = 0.5;
+    this.foldLines.add(this.paleLines());
     this.object.add(this.foldLines);
   }
 
+  /** The same lines pale and one pixel aside, below the dark ones: they are what one sees on dark values. */
+  paleLines() {
+    const material = new THREE.LineBasicMaterial({ color: 0xffffff, transparent: true, opacity: paleLineShare, depthWrite: false });
+    this.pixel = { value: new THREE.Vector2() };
+    material.onBeforeCompile = (shader) => {
+      shader.uniforms.pixel = this.pixel;
+      shader.vertexShader = `uniform vec2 pixel;\n${shader.vertexShader.replace("#include <project_vertex>", "#include <project_vertex>\ngl_Position.xy += pixel * gl_Position.w;")}`;
+    };
+    const lines = new THREE.LineSegments(this.foldLines.geometry, material);
+    lines.renderOrder = 0.4;
+    return lines;
+  }
+
   /** Leaves lines out that would be short even on the side of the scene next to the camera. */
-  showFolds(camera, heightPixels) {
+  showFolds(camera, widthPixels, heightPixels) {
+    this.pixel.value.set(2 / widthPixels, 2 / heightPixels);
     const distance = this.box.distanceToPoint(camera.position.clone().sub(this.object.position));
     const pixel = (2 * distance * Math.tan((camera.fov * Math.PI) / 360)) / heightPixels;
     const first = this.foldLengths.findIndex((length) => length < shortestFoldPixels * pixel);

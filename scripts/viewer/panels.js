@@ -40,13 +40,19 @@ function endText(result, time) {
   return result.has_sun ? time.local_end.slice(11, 16) : time.local_end.slice(0, 16).replace("T", " ");
 }
 
+/** Text that may go on in another line after _, / and . of its names, so that their words are not broken. */
+export function breakable(text) {
+  const pieces = String(text).split(/(?<=[_/.])(?=\p{L})/u);
+  return pieces.flatMap((piece, n) => (n ? [document.createElement("wbr"), piece] : [piece]));
+}
+
 export function tellSelection(viewer) {
   const { picked } = viewer.state;
   $("patch").hidden = !picked.length;
   // Before the chart is drawn, which asks how wide it is.
   document.body.classList.toggle("no-patch", !picked.length);
   if (!picked.length) return;
-  $("chosen").textContent = selectionText(picked);
+  $("chosen").replaceChildren(...breakable(selectionText(picked)));
   showWidening(viewer);
   const sensor = picked.length === 1 && picked[0].of === "sensor" ? picked[0] : null;
   const told = sensor ? sensorTold(viewer, sensor) : patchesTold(viewer);
@@ -70,7 +76,8 @@ function showWidening(viewer) {
     }
   }
   $("widen").replaceChildren(...wider.map((entry) => {
-    const button = Object.assign(document.createElement("button"), { textContent: `${entry.of} ${entry.name}`, title: `choose this ${entry.of}` });
+    const button = Object.assign(document.createElement("button"), { title: `choose this ${entry.of}` });
+    button.append(...breakable(`${entry.of} ${entry.name}`));
     button.addEventListener("click", () => viewer.choose([entry]));
     return button;
   }));
@@ -166,7 +173,7 @@ function valueRows(viewer, single, sets, which) {
 
 function sensorTold(viewer, { n, sensor }) {
   const { k } = viewer.state, result = viewer.results[n], { sensors } = result;
-  const at = [0, 1, 2].map((axis) => shown(sensors.position[3 * sensor + axis] + result.geometry.centre[axis] + (result.origin?.[axis] ?? 0), 8));
+  const at = [0, 1, 2].map((axis) => String(Number((sensors.position[3 * sensor + axis] + result.geometry.centre[axis] + (result.origin?.[axis] ?? 0)).toFixed(3))));
   const rows = [["sensor", [sensor]], ["position [m]", [at.join(", ")]]];
   const own = n === 0 ? k : result.intervalAt(viewer.results[0].times[k]);
   for (const name of [...sensors.totals.map((total) => total.name), ...(sensors.series ? [sensors.series.name] : [])]) {
@@ -185,7 +192,7 @@ function showRows(rows) {
     if (name) row.dataset.quantity = name;
     for (const text of [what, ...values]) {
       const cell = document.createElement("td");
-      cell.textContent = text;
+      cell.append(...breakable(text));
       row.append(cell);
     }
     return row;
@@ -216,7 +223,9 @@ function sayChart({ part }, kind, curves, units) {
   const what = { day: units, hours: `${units}, mean of each hour`, days: `${energy} of each day`, months: `${energy} of each month` }[kind];
   const says = [Object.assign(document.createElement("span"), { textContent: what.replaceAll("_", " ") })];
   if (curves.length > 1) curves.forEach((curve, n) => {
-    says.push(" ", Object.assign(document.createElement("b"), { textContent: `${n ? "- -" : "—"} ${curve.label}`, style: `color: ${curveColours[n]}` }));
+    const label = Object.assign(document.createElement("b"), { style: `color: ${curveColours[n]}` });
+    label.append(...breakable(`${n ? "- -" : "—"} ${curve.label}`));
+    says.push(" ", label);
   });
   if (curves.some((curve) => curve.step > 1)) says.push(` (from every ${curves[0].step}. interval)`);
   if (part) says.push(`; of all the period, not of ${part} alone`);

@@ -42,6 +42,9 @@ function letter(text) {
   c.font = "bold 48px sans-serif";
   c.textAlign = "center";
   c.textBaseline = "middle";
+  // A rim, so that it is read on dark ground.
+  [c.strokeStyle, c.lineWidth, c.lineJoin] = ["#fff", 7, "round"];
+  c.strokeText(text, 32, 34);
   c.fillStyle = "#333";
   c.fillText(text, 32, 34);
   const texture = new THREE.CanvasTexture(canvas);

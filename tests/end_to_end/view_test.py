@@ -163,6 +163,8 @@ def test_clicks(seen, result, bright, k):
 
 def test_sensor(seen, pictures, result):
     rows = {row[0]: row[2] for row in seen["sensor"]["rows"] if row[0]}
+    [position] = [row[2] for row in seen["sensor"]["rows"] if row[1] == "position [m]"]
+    assert position == "-8, -6, 2", position
     for name, data in (("light_load", "sensor_light_load"), ("sun_hours", "sensor_sun_hours"), ("irradiance", "sensor_irradiance")):
         value = result[data][0] if result[data].ndim == 1 else result[data][int(seen["dayTime"]), 0]
         assert abs(number(rows[name]) - value) <= THREE_DIGITS * value, (name, rows[name], value)
