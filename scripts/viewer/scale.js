@@ -38,13 +38,13 @@ export function ticks(low, high) {
   return list;
 }
 
-// Of the bar: numbers that are as near to each other would touch.
-const nearestTicks = 0.08;
+/** How near to each other, as shares of a usual bar, numbers at ticks touch. */
+function touching(...values) { return values.reduce((share, value) => share + 0.016 * shown(value).length, 0.03); }
 
-/** Ticks with the last colour's value (of differences the first's, too) in place of those that are too near to it. */
+/** Ticks with the last colour's value (of differences the first's, too) in place of those that would touch it. */
 export function withEnds(scale, list) {
   const ends = scale.low < 0 ? [scale.low, scale.high] : [scale.high], share = (value) => colourShare(scale, value);
-  const rest = list.filter((value) => ends.every((end) => Math.abs(share(end) - share(value)) >= nearestTicks));
+  const rest = list.filter((value) => ends.every((end) => Math.abs(share(end) - share(value)) >= touching(end, value)));
   return [...rest, ...ends].sort((a, b) => a - b);
 }
 
@@ -78,5 +78,6 @@ export function isPowerOfTen(value) { return Number(`1e${Math.round(Math.log10(v
 /** Some digits, as people write them. */
 export function shown(value, digits = 4) {
   if (!Number.isFinite(value)) return "not known";
-  return Math.abs(value) >= 1e7 || (value !== 0 && Math.abs(value) < 1e-3) ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
+  const rounded = Number(value.toPrecision(digits));
+  return Math.abs(value) >= 1e7 || (value !== 0 && Math.abs(value) < 1e-3) ? rounded.toExponential() : String(rounded);
 }
