@@ -213,7 +213,21 @@ bool Covers::is_buried(std::size_t t, Vec3 at) const {
     }
   });
   return inside > 0 || is_below_land || (is_land_[t] && is_sealed(p)) ||
-         (is_relief(t) && open_houses_.hold(p));
+         (is_relief(t) && open_houses_.hold(p)) || is_in_house_on_land(p);
+}
+
+/// Within a house that is open below alone, and closed there by land: at its lowest point, or above
+/// that.
+bool Covers::is_in_house_on_land(Vec3 p) const {
+  const auto foot = open_houses_.foot_of_tight_holder(p);
+  if (!foot) return false;
+  bool is_on_land = false;
+  tree_.visit_column(p.x, p.y, [&](std::size_t u) {
+    if (!is_land_[u]) return;
+    const auto z = height_at(mesh_, u, p.x, p.y);
+    is_on_land |= z && *z > *foot - contact_;
+  });
+  return is_on_land;
 }
 
 /// Whether what lies below `u` is below land: of land another sheet, as where one terrain has finer

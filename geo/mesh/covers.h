@@ -107,6 +107,7 @@ class Covers {
   bool reaches_before(std::size_t t, std::int32_t body) const;
   bool may_bury(std::size_t t, std::size_t u) const;
   bool is_sealed(Vec3 p) const;
+  bool is_in_house_on_land(Vec3 p) const;
   bool is_relief(std::size_t t) const;
   bool is_bare_terrain(std::size_t t) const;
   bool is_in_solid(std::size_t t) const;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "geo/mesh/slope.h"
+
 namespace sunload {
 
 std::vector<EdgeUse> edge_uses(const Mesh& mesh, const std::vector<std::uint8_t>& included) {
@@ -30,6 +32,14 @@ std::vector<EdgeUse> edge_uses(const Mesh& mesh, const std::vector<std::uint8_t>
   }
   std::sort(uses.begin() + static_cast<std::ptrdiff_t>(object_begin), uses.end(), by_edge);
   return uses;
+}
+
+bool is_foot_of_wall(const Mesh& mesh, const EdgeUse& use) {
+  const std::size_t t = use.triangle();
+  const Vec3 apex = mesh.corner(t, static_cast<int>((use.corner() + 2) % 3));
+  const double low = mesh.vertices[static_cast<std::size_t>(use.low)].z,
+               high = mesh.vertices[static_cast<std::size_t>(use.high)].z;
+  return slope_of(mesh, t) == Slope::upright && apex.z > std::max(low, high);
 }
 
 std::vector<double> angles_about(const Mesh& mesh, std::span<const EdgeUse> uses) {

@@ -41,6 +41,9 @@ void for_each_edge(const std::vector<EdgeUse>& uses, Visit visit) {
 /// from its higher vertex, from a direction of its own.
 std::vector<double> angles_about(const Mesh& mesh, std::span<const EdgeUse> uses);
 
+/// Whether the edge is the lower one of an upright triangle that stands on it.
+bool is_foot_of_wall(const Mesh& mesh, const EdgeUse& use);
+
 /// True where the triangle walks the edge from its lower to its higher vertex.
 inline bool walks_up(const Mesh& mesh, const EdgeUse& use) {
   return mesh.triangles[use.triangle()][use.corner()] == use.low;

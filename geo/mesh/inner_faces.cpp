@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "geo/base/together.h"
@@ -17,9 +19,10 @@ namespace {
 /// Of area^1.5, as of bodies: less is a sheet folded onto itself.
 constexpr double least_volume = 1e-9;
 
-/// Triangles of objects by what they hang together with, and whether that has an edge with an odd
-/// number of uses above one.
-std::vector<std::uint8_t> of_odd_bodies(const Mesh& mesh, const std::vector<EdgeUse>& uses) {
+/// Triangles of objects that hang together where an edge has an odd number of uses above one: of
+/// each the height of the lowest point of all of these; of others nothing.
+std::vector<std::optional<double>> feet_of_odd_bodies(const Mesh& mesh,
+                                                      const std::vector<EdgeUse>& uses) {
   Together together(mesh.triangle_count());
   std::vector<std::size_t> at_odd_edges;
   for_each_edge(uses, [&](std::span<const EdgeUse> at_edge) {
@@ -27,10 +30,15 @@ std::vector<std::uint8_t> of_odd_bodies(const Mesh& mesh, const std::vector<Edge
     if (at_edge.size() > 1 && at_edge.size() % 2 != 0)
       at_odd_edges.push_back(at_edge[0].triangle());
   });
-  std::vector<std::uint8_t> is_odd(mesh.triangle_count(), 0), flags(mesh.triangle_count(), 0);
-  for (const auto t : at_odd_edges) is_odd[together.of(t)] = 1;
-  for (std::size_t t = 0; t < flags.size(); ++t) flags[t] = is_odd[together.of(t)];
-  return flags;
+  std::vector<std::optional<double>> foot(mesh.triangle_count());
+  if (at_odd_edges.empty()) return foot;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const auto t : at_odd_edges) foot[together.of(t)] = infinite;
+  for (std::size_t t = 0; t < foot.size(); ++t)
+    if (auto& of = foot[together.of(t)])
+      for (int k = 0; k < 3; ++k) of = std::min(*of, mesh.corner(t, k).z);
+  for (std::size_t t = 0; t < foot.size(); ++t) foot[t] = foot[together.of(t)];
+  return foot;
 }
 
 /// Both sides of all triangles, by the part of space that they see.
@@ -40,6 +48,7 @@ class BothSides {
 
   /// About an edge each side sees what the next one sees that looks back at it.
   void join_about(std::span<const EdgeUse> uses) {
+    if (uses.size() == 1 && is_foot_of_wall(mesh_, uses[0])) return;
     const std::vector<double> angles = angles_about(mesh_, uses);
     std::vector<std::size_t> order(uses.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -48,21 +57,21 @@ class BothSides {
       parts_.join(onward(uses[order[i]]), backward(uses[order[(i + 1) % order.size()]]));
   }
 
-  /// Per side, whether its part of space is closed around.
-  std::vector<std::uint8_t> are_enclosed(const std::vector<std::uint8_t>& asked) {
+  /// Per side, whether its part of space is closed around, or at its foot by what it stands on.
+  std::vector<std::uint8_t> are_enclosed(const std::vector<std::optional<double>>& feet) {
     std::vector<double> volume6(2 * mesh_.triangle_count(), 0), area(volume6.size(), 0);
     for (std::size_t side = 0; side < volume6.size(); ++side) {
       const std::size_t t = side / 2;
-      if (!asked[t]) continue;
+      if (!feet[t]) continue;
       const Vec3 towards_it = (side % 2 == 0 ? 1.0 : -1.0) * mesh_.area_vector2(t);
-      volume6[parts_.of(side)] += dot(mesh_.corner(t, 0), towards_it);
+      volume6[parts_.of(side)] += dot(mesh_.corner(t, 0) - Vec3{0, 0, *feet[t]}, towards_it);
       area[parts_.of(side)] += norm(towards_it) / 2;
     }
     std::vector<std::uint8_t> flags(volume6.size(), 0);
     for (std::size_t side = 0; side < flags.size(); ++side) {
       const std::size_t part = parts_.of(side);
-      flags[side] =
-          asked[side / 2] != 0 && -volume6[part] / 6 > least_volume * std::pow(area[part], 1.5);
+      flags[side] = feet[side / 2].has_value() &&
+                    -volume6[part] / 6 > least_volume * std::pow(area[part], 1.5);
     }
     return flags;
   }
@@ -83,13 +92,13 @@ class BothSides {
 std::vector<std::uint8_t> inner_faces(const Mesh& mesh) {
   std::vector<std::uint8_t> flags(mesh.triangle_count(), 0);
   const auto uses = edge_uses(mesh, std::vector<std::uint8_t>(mesh.triangle_count(), 1));
-  const std::vector<std::uint8_t> asked = of_odd_bodies(mesh, uses);
-  if (std::ranges::count(asked, 1) == 0) return flags;
+  const auto feet = feet_of_odd_bodies(mesh, uses);
+  if (std::ranges::none_of(feet, [](const auto& foot) { return foot.has_value(); })) return flags;
   BothSides sides(mesh);
   for_each_edge(uses, [&](std::span<const EdgeUse> at_edge) {
-    if (asked[at_edge[0].triangle()]) sides.join_about(at_edge);
+    if (feet[at_edge[0].triangle()]) sides.join_about(at_edge);
   });
-  const std::vector<std::uint8_t> enclosed = sides.are_enclosed(asked);
+  const std::vector<std::uint8_t> enclosed = sides.are_enclosed(feet);
   for (std::size_t t = 0; t < flags.size(); ++t) flags[t] = enclosed[2 * t] && enclosed[2 * t + 1];
   return flags;
 }

@@ -16,8 +16,9 @@ namespace sunload {
 /// void cannot alternate. Windings are not asked. What lies in the same place may be told so, too.
 ///
 /// Sides of triangles that follow each other about an edge see the same part of space; all sides
-/// that see one part enclose it, if the volume on their side is finite. Cost: one pass, and a sort
-/// about each edge with more than two uses.
+/// that see one part enclose it, if the volume on their side is finite. Walls are taken to stand on
+/// something: about their open lower edges their sides do not see each other. Cost: one pass, and a
+/// sort about each edge with more than two uses.
 std::vector<std::uint8_t> inner_faces(const Mesh& mesh);
 
 }  // namespace sunload

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geo/mesh/open_below.h"
 
-#include <algorithm>
-
-#include "geo/mesh/slope.h"
-
 namespace sunload {
 
 OpenBelow::OpenBelow(const Mesh& mesh, const Bodies& bodies)
@@ -16,7 +12,7 @@ OpenBelow::OpenBelow(const Mesh& mesh, const Bodies& bodies)
     is_open[t] = b >= 0 && !bodies.bodies[static_cast<std::size_t>(b)].is_closed;
   }
   for_each_edge(edge_uses(mesh, is_open), [&](std::span<const EdgeUse> uses) {
-    const bool is_foot = uses.size() == 1 && is_foot_of_wall(uses[0]);
+    const bool is_foot = uses.size() == 1 && is_foot_of_wall(mesh, uses[0]);
     if (is_foot || goes_on(uses)) return;
     for (const EdgeUse& use : uses) is_house_[body(use.triangle())] = 0;
   });
@@ -30,14 +26,6 @@ OpenBelow::OpenBelow(const Mesh& mesh, const Bodies& bodies)
 bool OpenBelow::goes_on(std::span<const EdgeUse> uses) const {
   return uses.size() == 2 && body(uses[0].triangle()) == body(uses[1].triangle()) &&
          walks_up(mesh_, uses[0]) != walks_up(mesh_, uses[1]);
-}
-
-bool OpenBelow::is_foot_of_wall(const EdgeUse& use) const {
-  const std::size_t t = use.triangle();
-  const Vec3 apex = mesh_.corner(t, static_cast<int>((use.corner() + 2) % 3));
-  const double low = mesh_.vertices[static_cast<std::size_t>(use.low)].z,
-               high = mesh_.vertices[static_cast<std::size_t>(use.high)].z;
-  return slope_of(mesh_, t) == Slope::upright && apex.z > std::max(low, high);
 }
 
 /// As if each body were closed at its lowest point, times 6.

@@ -28,7 +28,6 @@ class OpenBelow {
     return static_cast<std::size_t>(bodies_.triangle_body[t]);
   }
   bool goes_on(std::span<const EdgeUse> uses) const;
-  bool is_foot_of_wall(const EdgeUse& use) const;
   std::vector<double> volumes_above_foot(const std::vector<std::uint8_t>& asked) const;
 
   const Mesh& mesh_;

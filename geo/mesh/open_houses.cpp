@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "geo/mesh/open_below.h"
 #include "geo/mesh/plumb_line.h"
 #include "geo/mesh/slope.h"
 
@@ -41,15 +42,19 @@ int side_of(const Corners& corners, Vec3 p, const Turned& turned) {
 OpenHouses::OpenHouses(const Mesh& mesh, const Bodies& bodies,
                        const std::vector<std::uint8_t>& is_opaque)
     : mesh_(mesh), is_wall_(mesh.triangle_count(), 0), of_object_(mesh.object_names.size()) {
+  is_tight_.assign(mesh.object_names.size(), 0);
   if (std::ranges::none_of(mesh.object_kinds, is_land)) return;
+  const OpenBelow open_below(mesh, bodies);
+  std::vector<std::uint8_t> has_roof(bodies.bodies.size(), 0);
   struct Has {
     bool walls = false, roof = false;
   };
   const auto may_belong = [&](std::size_t t) {
     const auto b = bodies.triangle_body[t];
     const auto& kind = mesh.object_kinds[mesh.triangle_object[t].index()];
-    return is_opaque[t] && mesh.triangle_surface[t] != Surface::ground && !is_land(kind) &&
-           !is_plant(kind) && !(b >= 0 && bodies.bodies[static_cast<std::size_t>(b)].is_closed);
+    return is_opaque[t] && !bodies.is_inner(t) && mesh.triangle_surface[t] != Surface::ground &&
+           !is_land(kind) && !is_plant(kind) &&
+           !(b >= 0 && bodies.bodies[static_cast<std::size_t>(b)].is_closed);
   };
   std::vector<Has> has(mesh.object_names.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -58,11 +63,19 @@ OpenHouses::OpenHouses(const Mesh& mesh, const Bodies& bodies,
     Has& of_object = has[mesh.triangle_object[t].index()];
     of_object.walls |= slope == Slope::upright;
     of_object.roof |= slope == Slope::upward;
+    const auto body = bodies.triangle_body[t];
+    if (open_below.has(body)) is_tight_[mesh.triangle_object[t].index()] = 1;
+    if (body >= 0 && slope == Slope::upward) has_roof[static_cast<std::size_t>(body)] = 1;
   }
+  const auto is_within = [&](std::size_t t) {
+    const auto body = bodies.triangle_body[t];
+    return is_tight_[mesh.triangle_object[t].index()] != 0 &&
+           !(body >= 0 && has_roof[static_cast<std::size_t>(body)]);
+  };
   std::vector<Box> boxes;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const Has of_object = has[mesh.triangle_object[t].index()];
-    if (!of_object.walls || !of_object.roof || !may_belong(t)) continue;
+    if (!of_object.walls || !of_object.roof || !may_belong(t) || is_within(t)) continue;
     is_wall_[t] = slope_of(mesh, t) == Slope::upright;
     triangle_.push_back(t);
     const Corners c = corners_of(mesh, t);
@@ -74,7 +87,13 @@ OpenHouses::OpenHouses(const Mesh& mesh, const Bodies& bodies,
   tree_ = BoxTree(std::move(boxes));
 }
 
-bool OpenHouses::hold(Vec3 p) const {
+std::optional<double> OpenHouses::foot_of_tight_holder(Vec3 p) const {
+  const auto found = holder(p);
+  if (!found || !is_tight_[found->index()]) return {};
+  return of_object_[found->index()].low.z;
+}
+
+std::optional<ObjectId> OpenHouses::holder(Vec3 p) const {
   std::vector<ObjectId> roofs;
   tree_.visit_meeting({p, {p.x, p.y, far_away}}, [&](std::size_t i) {
     const std::size_t t = triangle_[i];
@@ -82,7 +101,9 @@ bool OpenHouses::hold(Vec3 p) const {
     if (std::ranges::find(roofs, object) != roofs.end()) return;
     if (const auto z = height_at(mesh_, t, p.x, p.y); z && *z > p.z) roofs.push_back(object);
   });
-  return std::ranges::any_of(roofs, [&](ObjectId object) { return enclose(object, p); });
+  const auto holder = std::ranges::find_if(roofs, [&](ObjectId o) { return enclose(o, p); });
+  if (holder == roofs.end()) return {};
+  return *holder;
 }
 
 bool OpenHouses::enclose(ObjectId object, Vec3 p) const {

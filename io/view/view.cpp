@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <fstream>
+#include <set>
 
 #include "geo/base/check.h"
 #include "io/base/colour_map.h"
@@ -55,12 +56,16 @@ nlohmann::json palette(Palette which) {
 
 /// Number of the colour of each material by its name, so that it has one in all results.
 nlohmann::json colours_of_materials(const std::deque<ResultReader>& results) {
-  auto numbers = nlohmann::json::object();
+  std::set<std::string> all;
   for (const auto& result : results) {
     if (!result.has("material_name")) continue;
-    for (const auto& name : result.strings("material_name"))
-      if (!numbers.contains(name)) numbers[name] = numbers.size() % material_colour_count;
+    const auto of_result = result.strings("material_name");
+    all.insert(of_result.begin(), of_result.end());
   }
+  const std::vector<std::string> names(all.begin(), all.end());
+  const auto colours = material_colours(names);
+  auto numbers = nlohmann::json::object();
+  for (std::size_t i = 0; i < names.size(); ++i) numbers[names[i]] = colours[i];
   return numbers;
 }
 

@@ -125,5 +125,27 @@ TEST(InnerFaces, AreAskedOfOneObjectAtATime) {
   EXPECT_EQ(std::ranges::count(inner_faces(model.prepared().mesh), 1), 0);
 }
 
+/// A house without a floor on land, `sill_m` above it, with a partition that no edge joins to it.
+double covered_walls_m2(double sill_m) {
+  ModelBuilder model;
+  model.object("land", "TINRelief").with(Surface::ground);
+  model.ring({{-30, -30, 0}, {30, -30, 0}, {30, 30, 0}, {-30, 30, 0}});
+  model.object("house").with(Surface::other).walls_and_roof({0, 0, sill_m}, {8, 6, sill_m + 5});
+  model.ring({{3, 0, sill_m}, {3, 6, sill_m}, {3, 6, sill_m + 5}, {3, 0, sill_m + 5}});
+  PreparedMesh p = model.prepared();
+  cut_covered(p.mesh, p.bodies, std::vector<std::uint8_t>(p.mesh.triangle_count(), 1));
+  double walls = 0;
+  for (std::size_t t = 0; t < p.mesh.triangle_count(); ++t)
+    if (p.mesh.is_covered(t) && p.mesh.triangle_surface[t] == Surface::wall)
+      walls += p.mesh.area_m2(t);
+  return walls;
+}
+
+TEST(OpenHouses, HideTheirPartitions) {
+  EXPECT_NEAR(covered_walls_m2(0), 30, house_rounding_m2);
+  EXPECT_NEAR(covered_walls_m2(-0.5), 30 + (2 * 8 + 2 * 6) * 0.5, house_rounding_m2);
+  EXPECT_EQ(covered_walls_m2(2), 0);  // light comes from below
+}
+
 }  // namespace
 }  // namespace sunload::test
