@@ -4,7 +4,6 @@
 #include "geo/sun/map_axes.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <limits>
 
@@ -13,6 +12,7 @@
 #include "geo/sun/weather.h"
 #include "geo/sun/weather_holes.h"
 #include "geo/time/time.h"
+#include "io/scene/file.h"
 
 namespace sunload {
 
@@ -58,8 +58,8 @@ void read_weather(const std::string& path, Findings& found) {
 
 /// By its ending: what is inside has been read by then.
 bool is_raster(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  return ending == ".tif" || ending == ".tiff" || ending == ".asc";
+  const auto format = scene_format_of_name(path);
+  return format && format->kind == SceneFileKind::raster;
 }
 
 void look_at_site(const InitRules& rules, const BuiltScene& built, Findings& found) {
@@ -144,8 +144,8 @@ bool lies_on_its_side(const Covered& along_z, const Covered& along_y) {
 
 /// Formats that do not say which axis points up, where z is taken for it.
 bool may_be_on_its_side(const std::string& path) {
-  const std::string ending = std::filesystem::path(path).extension().string();
-  return ending == ".obj" || ending == ".ply" || ending == ".stl" || ending == ".off";
+  const auto format = scene_format_of_name(path);
+  return format && !format->says_up;
 }
 
 void look_at_surfaces(const Mesh& mesh, Findings& found) {

@@ -34,34 +34,50 @@ struct Format {
   std::vector<std::string_view> marks;       ///< what the file may begin with
   std::vector<std::string_view> extensions;  ///< in lower case, with the dot
   Reader read;
+  SceneFileKind kind;
+  bool says_up = true;
 };
 
 // A format is added by its row. The mark 1F 8B is gzip's: VRML, but for names of CityGML.
 const std::vector<Format>& formats() {
+  constexpr bool up_is_unsaid = false;
   static const std::vector<Format> table{
-      {"CityJSON", {"{"}, {".city.json", ".city.jsonl", ".json", ".jsonl"}, read_scene_cityjson},
+      {"CityJSON",
+       {"{"},
+       {".city.json", ".city.jsonl", ".json", ".jsonl"},
+       read_scene_cityjson,
+       SceneFileKind::city},
       {"CityGML",
        {"<"},
        {".gml", ".citygml", ".xml", ".gml.gz", ".citygml.gz", ".xml.gz"},
-       read_scene_citygml},
-      {"OBJ", {}, {".obj"}, read_scene_obj},
+       read_scene_citygml,
+       SceneFileKind::city},
+      {"OBJ", {}, {".obj"}, read_scene_obj, SceneFileKind::mesh, up_is_unsaid},
       {"VRML",
        {"#VRML", "#Inventor", "\x1F\x8B"},
        {".wrl", ".wrl.gz", ".vrml", ".wrz", ".iv"},
-       read_scene_vrml},
-      {"PLY", {"ply\n", "ply\r"}, {".ply"}, read_scene_ply},
-      {"OFF", {"OFF", "COFF", "NOFF", "STOFF"}, {".off"}, read_scene_off},
-      {"STL", {"solid "}, {".stl"}, read_scene_stl},
-      {"glTF", {"glTF"}, {".gltf", ".glb"}, read_scene_gltf},
+       read_scene_vrml,
+       SceneFileKind::mesh},
+      {"PLY", {"ply\n", "ply\r"}, {".ply"}, read_scene_ply, SceneFileKind::mesh, up_is_unsaid},
+      {"OFF",
+       {"OFF", "COFF", "NOFF", "STOFF"},
+       {".off"},
+       read_scene_off,
+       SceneFileKind::mesh,
+       up_is_unsaid},
+      {"STL", {"solid "}, {".stl"}, read_scene_stl, SceneFileKind::mesh, up_is_unsaid},
+      {"glTF", {"glTF"}, {".gltf", ".glb"}, read_scene_gltf, SceneFileKind::mesh},
       {"GeoTIFF raster",
        {{"II*\0", 4}, {"MM\0*", 4}, {"II+\0", 4}},
        {".tif", ".tiff"},
-       read_scene_raster},
-      {"ESRI ASCII raster", {"ncols", "NCOLS"}, {".asc"}, read_scene_raster},
+       read_scene_raster,
+       SceneFileKind::raster},
+      {"ESRI ASCII raster", {"ncols", "NCOLS"}, {".asc"}, read_scene_raster, SceneFileKind::raster},
       {"footprints (GeoJSON, GeoPackage, Shapefile, FlatGeobuf)",
        {},
        {".geojson", ".gpkg", ".shp", ".fgb"},
-       read_scene_footprints},
+       read_scene_footprints,
+       SceneFileKind::plan},
   };
   return table;
 }
@@ -112,6 +128,12 @@ std::string names_of_formats() {
 }
 
 }  // namespace
+
+std::optional<SceneFormat> scene_format_of_name(const std::string& path) {
+  const auto* format = format_by_extension(path);
+  if (format == nullptr) return {};
+  return SceneFormat{format->kind, format->says_up};
+}
 
 bool is_of_footprints(const std::string& path) {
   return is_footprint_file(path, without_leading_blanks(read_file_head(path, head_bytes)));

@@ -3,6 +3,7 @@
 /// Scene files of every format: one entry, one table of formats.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "geo/mesh/mesh.h"
@@ -17,6 +18,19 @@ namespace sunload {
 /// tolerated or left out is in `PolygonModel::notes`.
 /// Throws InputError where the file is missing, of an unknown format, or wrong.
 PolygonModel read_scene_file(const std::string& path, const SceneFileRules& rules);
+
+/// What a format holds. Meshes carry no position on Earth.
+enum class SceneFileKind { mesh, city, raster, plan };
+
+/// What is known of a scene file by its name alone.
+struct SceneFormat {
+  SceneFileKind kind;
+  bool says_up;  ///< whether the format itself tells which axis points up
+};
+
+/// By the extension, in capitals or not; nothing where it is that of no scene format. The file need
+/// not be there.
+std::optional<SceneFormat> scene_format_of_name(const std::string& path);
 
 /// Whether it is plan data: footprints, which may stand on a terrain.
 bool is_of_footprints(const std::string& path);

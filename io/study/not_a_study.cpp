@@ -11,6 +11,7 @@
 
 #include "geo/base/check.h"
 #include "io/base/file_text.h"
+#include "io/scene/file.h"
 
 namespace sunload {
 
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class FileKind { unknown, city, mesh, weather, result };
+enum class FileKind { unknown, city, mesh, plan, weather, result };
 
 std::string first_bytes(const std::string& path) {
   constexpr std::size_t enough = 64 * 1024;  // CityJSON may name its type behind its metadata
@@ -29,10 +30,17 @@ std::string first_bytes(const std::string& path) {
   return head;
 }
 
+/// Names of cities tell nothing: studies may be in JSON.
+FileKind kind_of_name(const std::string& path) {
+  const auto format = scene_format_of_name(path);
+  if (!format || format->kind == SceneFileKind::city) return FileKind::unknown;
+  return format->kind == SceneFileKind::plan ? FileKind::plan : FileKind::mesh;
+}
+
 FileKind kind_of(const std::string& path, std::string_view head) {
   head = without_byte_order_mark(head);
   const auto has = [&](std::string_view text) { return head.find(text) != std::string_view::npos; };
-  const std::string ending = fs::path(path).extension().string();
+  const std::string ending = lower_extension(path);
   const auto ends_with = [&](std::initializer_list<std::string_view> endings) {
     for (const auto each : endings)
       if (ending == each) return true;
@@ -47,10 +55,9 @@ FileKind kind_of(const std::string& path, std::string_view head) {
   if (head.starts_with('<') && (has(":CityModel") || has("<CityModel") || has("/citygml/")))
     return FileKind::city;
   if (head.starts_with("#VRML") || head.starts_with("glTF") || head.starts_with("ply\n") ||
-      head.starts_with("ply\r") ||
-      ends_with({".obj", ".stl", ".STL", ".gltf", ".glb", ".wrl", ".ply", ".off", ".tif", ".asc"}))
+      head.starts_with("ply\r"))
     return FileKind::mesh;
-  return FileKind::unknown;
+  return kind_of_name(path);
 }
 
 std::string study_with(const std::string& site, const std::string& light,
@@ -84,6 +91,9 @@ void refuse_other_files(const std::string& path) {
       throw InputError(
           {path}, "is a model, not a study", "a study names its models",
           init + study_with(place, "clear_sky", "files: [" + name + "], ground: {margin_m: 50}"));
+    case FileKind::plan:
+      throw InputError({path}, "is plan data, not a study", "a study names its models",
+                       init + study_with("", "clear_sky", "files: [" + name + "]"));
     case FileKind::weather:
       throw InputError({path}, "is a weather file, not a study", "a study names its weather",
                        study_with("", "weather, weather: " + name, "builtin: {name: street}"));

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <map>
@@ -13,6 +12,7 @@
 
 #include "io/base/key_names.h"
 #include "io/scene/base/from_file.h"
+#include "io/scene/file.h"
 #include "io/study/matrix.h"
 #include "io/study/not_a_study.h"
 #include "io/study/sections.h"
@@ -226,10 +226,8 @@ void mark_overruled(std::size_t own, std::vector<AssignRule>& rules) {
 
 /// Files of these formats carry no position on Earth.
 bool is_without_crs(const std::string& path) {
-  const std::string name = lower(path);
-  constexpr std::array endings{".wrl", ".wrl.gz", ".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
-  return std::any_of(endings.begin(), endings.end(),
-                     [&](const char* ending) { return name.ends_with(ending); });
+  const auto format = scene_format_of_name(path);
+  return format && format->kind == SceneFileKind::mesh;
 }
 
 /// What `short_intervals: together` cannot go with: wishes of single intervals.

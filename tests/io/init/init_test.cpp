@@ -180,6 +180,11 @@ TEST(Init, AModelThatLiesOnItsSideIsStoodUp) {
       begun(folder, {.model = folder.write("block.obj", block_on_its_side()), .at = "52 4"});
   EXPECT_NE(text.find("      up: y\n"), std::string::npos) << text;
   EXPECT_NE(text.find("<<< up: y"), std::string::npos);
+  const WorkFolder capitals;
+  const std::string of_capitals =
+      begun(capitals, {.model = capitals.write("BLOCK.OBJ", block_on_its_side()), .at = "52 4"})
+          .second;
+  EXPECT_NE(of_capitals.find("      up: y\n"), std::string::npos) << of_capitals;
   const WorkFolder closed;
   const std::string with_bottom = block_on_its_side() + "f 8 7 6 5\n";
   const std::string of_closed =

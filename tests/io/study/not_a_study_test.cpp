@@ -21,7 +21,11 @@ TEST(NotAStudy, SaysWhatAFileIsAndHowToBegin) {
         Case{"town.jsonl", "\xef\xbb\xbf{\"type\":\"CityJSONFeature\"}", "city model"},
         Case{"town.gml", "<?xml version='1.0'?>\n<core:CityModel>", "city model"},
         Case{"house.obj", "v 0 0 0\n", "is a model"},
+        Case{"HOUSE.OBJ", "v 0 0 0\n", "is a model"},
+        Case{"land.TIF", "II*", "is a model"},
+        Case{"town.gpkg", "SQLite format 3", "is plan data"},
         Case{"room", "#VRML V2.0 utf8\n", "is a model"},
+        Case{"WINTER.WEA", "place Berlin\n", "weather file"},
         Case{"berlin.epw", "LOCATION,Berlin\n", "weather file"},
         Case{"street.h5", "\x89HDF\r\n\x1a\n", "file of results"}}) {
     const std::string told = refusal_of([&] { read_study(folder.write(c.name, c.text)); });
