@@ -43,6 +43,13 @@ std::vector<std::size_t> lit_rows(const TracedScene& traced, std::span<const Int
   return rows;
 }
 
+/// Light that is solved is looked at with its block; this is what is left out.
+void expect_dark_valid(const TracedScene& traced, std::span<const IntervalLight> batch) {
+  for (std::size_t k = 0; k < batch.size(); ++k)
+    if (batch[k].is_dark())
+      expect_valid(batch.subspan(k, 1), static_cast<std::size_t>(traced.grid.cell_count()));
+}
+
 /// Time sums of the ledger's series.
 void add_energy(std::span<const IntervalLight> batch, BatchTally& tally) {
   for (std::size_t k = 0; k < batch.size(); ++k)
@@ -60,6 +67,7 @@ int batch_suns_for(std::size_t intervals) {
 Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch,
              std::span<const PartOfBatch> parts, RayRecord* record) {
   const TracedScene& traced = transport.traced();
+  expect_dark_valid(traced, batch);
   Solved solved;
   for (std::size_t b = 0; b < traced.optics_of_band.size(); ++b)
     solved.bands.push_back(empty_tally(tally_shape(traced, batch.size(), parts)));

@@ -32,7 +32,8 @@ TallyShape tally_shape(const TracedScene& traced, std::size_t intervals,
                        std::span<const PartOfBatch> parts = {});
 
 /// Light of consecutive intervals, and the totals of `parts` of their time (ReceiverTally::parts).
-/// With rgb every sun has its light in `bands`. Throws Interrupted.
+/// With rgb every sun has its light in `bands`. Throws Interrupted, and std::logic_error for light
+/// that is none (expect_valid of solver/light/sun_block).
 /// `record`: see LightTransport::begin.
 Solved solve(const LightTransport& transport, std::span<const IntervalLight> batch, Watch& watch,
              std::span<const PartOfBatch> parts = {}, RayRecord* record = nullptr);

@@ -93,6 +93,7 @@ Outside outside_of(const LitPeriod& period, const std::vector<double>& shares,
     const double share = shares.empty() ? 1 : shares[i];
     if (share == 0) continue;
     IntervalLight light = period.of(i);
+    expect_valid({&light, 1}, outside.sky.size());
     light.length_s *= share;
     outside.seconds += light.length_s;
     if (period.is_dark(i)) continue;

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "geo/base/check.h"
 #include "geo/base/units.h"
 #include "solver/base/chunks.h"
 #include "solver/base/threads.h"
@@ -24,6 +25,8 @@ void for_each_value(const Columns& of, const Change& change) {
 
 BlockSources::BlockSources(std::span<const IntervalLight> block, std::size_t sky_cells)
     : suns(block), sky(columns(sky_cells)) {
+  SUNLOAD_EXPECT(block.size() <= block_width, "no more suns than a block has");
+  expect_valid(block, sky_cells);
   circumsolar_factor.fill(1);
   for (std::size_t k = 0; k < suns.size(); ++k) {
     ground_exitance[k] = static_cast<float>(suns[k].ground_exitance);

@@ -21,6 +21,7 @@ namespace sunload {
 
 /// Sources of a block that do not depend on the patch.
 struct BlockSources {
+  /// Of up to `block_width` suns. Throws std::logic_error for light that is none (expect_valid).
   explicit BlockSources(std::span<const IntervalLight> suns, std::size_t sky_cells);
   /// From now on the lines carry the sky without its circumsolar part.
   void split_sky(const SkyGrid& grid);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geo/base/vec.h"
@@ -30,10 +31,11 @@ struct SunSample {
   double time_share;  ///< of its sunlit time, likewise
 };
 
-/// Light of one interval, as means over the interval [W m-2].
+/// Light of one interval, as means over the interval [W m-2]. All numbers are finite, all but
+/// directions 0 or more; `expect_valid` says so.
 struct IntervalLight {
   std::uint32_t number = 0;  ///< of the interval in the period: address of random numbers
-  Vec3 direction{0, 0, 1};   ///< to the sun, scene frame, unit
+  Vec3 direction{0, 0, 1};   ///< to the sun, scene frame, unit where there is a sun
   /// Suns that stand for the interval, in the order of time, where several do; else empty. The sky
   /// is that of `direction`, or where there are `direct_suns` the mean of theirs.
   std::vector<SunSample> sun_samples;
@@ -43,12 +45,12 @@ struct IntervalLight {
   double dni = 0;
   double dhi = 0;
   double ground_exitance = 0;  ///< of the far ground, its albedo times GHI
-  /// Mean radiance per cell of the sky grid [W m-2 sr-1]; empty: dark.
+  /// Mean radiance per cell of the sky grid [W m-2 sr-1], of all cells or none; empty: dark.
   std::vector<double> sky;
   double length_s = 0;
   double sunlit_s = 0;         ///< above 0: the sun's centre is above the horizon
   double sun_share = 1;        ///< of the interval's sunlit time, in what `sun_samples` makes
-  double disk_half_angle = 0;  ///< of the sun's disk; 0: a point
+  double disk_half_angle = 0;  ///< of the sun's disk [rad], below π/2; 0: a point
 
   /// The same light in one band (solver/light/band.h).
   struct Band {
@@ -63,6 +65,12 @@ struct IntervalLight {
   bool has_sun() const { return sunlit_s > 0 && direction.z > 0; }
   bool is_dark() const { return !has_sun() && dhi <= 0; }
 };
+
+/// Throws std::logic_error for light that is none: a number that is not finite or below 0, a sky
+/// (also of a band) of another number of cells than `sky_cells`, a sun above the horizon whose
+/// direction is not of unit length. All light that is solved passes here. Cost: one look at each
+/// cell.
+void expect_valid(std::span<const IntervalLight> suns, std::size_t sky_cells);
 
 /// One value per patch (or sky cell) and sun of a block: rows of `block_width` floats, aligned to
 /// cache lines.

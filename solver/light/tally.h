@@ -78,7 +78,8 @@ struct PartTally : PartOfBatch {
 };
 
 /// What N receivers (patches or sensors) get in K consecutive intervals, R
-/// realizations. Energies are J m-2; a part that the scene cannot have is empty.
+/// realizations. Energies are J m-2; a part that the scene cannot have is empty. In [K][N] receiver
+/// p in interval k of the batch stands at k·N + p.
 struct ReceiverTally {
   std::array<LargeVector<float>, part_count> irradiance;  ///< [K][N] W m-2, where it is kept
   LargeVector<float> irradiance_se;                       ///< [K][N], if asked for

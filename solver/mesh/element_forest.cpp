@@ -86,7 +86,13 @@ void ElementForest::bisect(std::size_t leaf) {
   link(elements_[leaf].first_child + 1);
 }
 
+void expect_valid(const SplitRules& rules) {
+  SUNLOAD_EXPECT(rules.max_edge_m > 0, "edges that can be reached");
+  SUNLOAD_EXPECT(rules.min_area_m2 >= 0, "an area");
+}
+
 void ElementForest::split_long_edges(const SplitRules& rules) {
+  expect_valid(rules);
   for (const auto root : root_)
     if (root >= 0) split_tree(static_cast<std::size_t>(root), rules);
 }

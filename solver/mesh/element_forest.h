@@ -24,10 +24,13 @@ namespace sunload {
 
 /// How long and how small elements may be, and how many patches they may make.
 struct SplitRules {
-  double max_edge_m = 1e9;  ///< split while the longest edge is longer
-  double min_area_m2 = 0;   ///< never split an element below twice this area
+  double max_edge_m = 1e9;  ///< above 0: split while the longest edge is longer
+  double min_area_m2 = 0;   ///< 0 or more: never split an element below twice this area
   std::size_t max_patches = 100'000'000;
 };
+
+/// Throws std::logic_error for lengths and areas that are out of range or no numbers.
+void expect_valid(const SplitRules& rules);
 
 /// Only grows: an element is never removed, and the number of one stays as it is.
 class ElementForest {
@@ -45,7 +48,8 @@ class ElementForest {
   /// One root per triangle that can have patches. `scene` must outlive it.
   explicit ElementForest(const Scene& scene);
 
-  /// Splits until no longest edge exceeds the rule's. Throws InputError beyond `max_patches`.
+  /// Splits until no longest edge exceeds the rule's. Throws InputError beyond `max_patches`, and
+  /// std::logic_error for rules that are none.
   void split_long_edges(const SplitRules& rules);
   /// Bisects a leaf. With TVertices::remove every leaf at the split edge is bisected there too,
   /// after those of them whose own longest edge is another one were split first: no area is too

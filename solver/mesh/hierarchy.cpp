@@ -40,6 +40,7 @@ std::size_t least_patch_count(const Scene& scene, const SplitRules& rules) {
 }
 
 void expect_splittable(const Scene& scene, const SplitRules& rules) {
+  expect_valid(rules);
   if (least_patch_count(scene, rules) > rules.max_patches)
     throw InputError({}, "more than " + std::to_string(rules.max_patches) + " patches",
                      "mesh.max_edge_m is too small for this scene", "use a larger one");

@@ -31,14 +31,16 @@ struct Patch {
 /// at most h has at most the area √3/4 h², an element that is not split for its
 /// smallness at most 2·min_area. Never more than 10^15.
 std::size_t least_patch_count(const Scene& scene, const SplitRules& rules);
-/// Throws InputError where even these are more than `max_patches`.
+/// Throws InputError where even these are more than `max_patches`, and std::logic_error for rules
+/// that are none.
 void expect_splittable(const Scene& scene, const SplitRules& rules);
 
 /// The finished mesh: never changes, and may be read from any thread.
 class Hierarchy {
  public:
   /// Splits every triangle of the scene by `max_edge_m` alone.
-  /// Throws InputError where more than `max_patches` would result.
+  /// Throws InputError where more than `max_patches` would result, and std::logic_error for rules
+  /// that are none.
   Hierarchy(const Scene& scene, const SplitRules& rules);
   /// Freezes trees that have grown.
   explicit Hierarchy(const ElementForest& forest);

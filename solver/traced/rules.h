@@ -16,17 +16,19 @@
 
 namespace sunload {
 
+/// Counts are shared equally by the realizations: multiples of their number.
 struct SolverRules {
-  int bounces = 5;  ///< light reflected diffusely 1 … bounces times is followed
-  /// Fewer bounces (and mirrors of the sun) where less than this is left.
+  /// Light reflected diffusely 1 … bounces times is followed; 0 … most_reflections.
+  int bounces = 5;
+  /// Fewer bounces (and mirrors of the sun) where less than this share is left; 0 or more.
   double unshot = 1e-4;
   /// Whether the light that bounces do not follow is estimated and added (Unfollowed).
   Unfollowed unfollowed = Unfollowed::estimate;
-  int lines_per_patch = 256;             ///< over all realizations
+  int lines_per_patch = 256;             ///< over all realizations, 1 or more of each
   std::vector<int> lines_of_patch = {};  ///< if they differ; sensors have lines_per_patch
-  int direct_samples = 16;               ///< per patch and sun, over all realizations
-  int realizations = 8;
-  int mirror_depth = 8;
+  int direct_samples = 16;    ///< per patch and sun, over all realizations, 1 or more of each
+  int realizations = 8;       ///< 1 or more; 2 for standard errors
+  int mirror_depth = 8;       ///< reflections of a chain of mirrors, 0 … most_reflections
   double faint_glint = 0.02;  ///< share of the sun below which light reflected again is no beam
   int most_sun_beams = 128;   ///< sequences of mirror orientations per sun that are beams
   /// On sensors no chains of mirrors end: beams go on to `unshot` of the sun where no more than so
@@ -45,13 +47,16 @@ struct SolverRules {
   Transport transport = Transport::gather;
   Year year = Year::each;                    ///< when gathering
   Jacobi jacobi = Jacobi::incremental;       ///< when shooting
-  std::optional<double> power_per_sample_w;  ///< when shooting, ShootingRules
-  std::optional<int> samples_per_patch;      ///< when shooting, ShootingRules
+  std::optional<double> power_per_sample_w;  ///< when shooting, ShootingRules; above 0
+  std::optional<int> samples_per_patch;      ///< when shooting, ShootingRules; 1 or more
   /// Parts whose series are kept; time sums there are of all, and the total is kept in any case.
   std::array<bool, part_count> series = all_parts;
   /// BatchTally::by_source and, with errors per instant, se_by_source.
   bool by_source = false;
 };
+
+/// Throws std::logic_error for members that are out of their ranges.
+void expect_valid(const SolverRules& rules);
 
 /// Whether few solutions can serve a period by these rules at all
 /// (solver/transport/year_gathering): gathered light with errors of totals.

@@ -157,6 +157,7 @@ FormFactorRules form_factor_rules(const SolverRules& rules) {
 std::unique_ptr<TracedScene> trace_scene(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
                                          const SolverRules& rules, Watch& watch,
                                          std::optional<Lines> ready) {
+  expect_valid(rules);
   auto traced = std::make_unique<TracedScene>(scene, std::move(mesh), rules);
   traced->patches.lines = ready ? std::move(*ready) : lines_of_patches(*traced, watch);
   if (rules.transport == Transport::matrix) use_form_factors(*traced, watch);
@@ -170,6 +171,7 @@ std::unique_ptr<TracedScene> trace_scene(const Scene& scene, std::shared_ptr<con
 std::unique_ptr<TracedScene> trace_scene(const Scene& scene, const SplitRules& split,
                                          const SolverRules& rules, Watch& watch,
                                          std::optional<Lines> ready) {
+  expect_valid(rules);
   return trace_scene(scene, std::make_shared<const Hierarchy>(scene, split), rules, watch,
                      std::move(ready));
 }

@@ -81,11 +81,11 @@ FormFactorRules form_factor_rules(const SolverRules& rules);
 
 /// Builds the ray caster and traces all lines, unless those of an equal scene are handed over
 /// (`ready`). `scene` must outlive the result. Cost: a ray for each line of every patch. Throws
-/// Interrupted.
+/// Interrupted, and std::logic_error for rules out of range (SolverRules).
 std::unique_ptr<TracedScene> trace_scene(const Scene& scene, std::shared_ptr<const Hierarchy> mesh,
                                          const SolverRules& rules, Watch& watch,
                                          std::optional<Lines> ready = {});
-/// On a mesh that is split by edge length alone.
+/// On a mesh that is split by edge length alone. Throws as Hierarchy does, too.
 std::unique_ptr<TracedScene> trace_scene(const Scene& scene, const SplitRules& split,
                                          const SolverRules& rules, Watch& watch,
                                          std::optional<Lines> ready = {});

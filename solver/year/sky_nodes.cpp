@@ -102,6 +102,7 @@ SkyNodes::SkyNodes(const SkyGrid& grid, const LitPeriod& period, std::size_t mos
 
 std::vector<float> SkyNodes::coarse(const std::vector<double>& sky) const {
   const std::size_t side = side_ / joined;
+  SUNLOAD_EXPECT(sky.empty() || sky.size() == side_ * side_, "a sky of all cells of the grid");
   std::vector<float> cells(side * side, 0);
   for (std::size_t c = 0; c < sky.size(); ++c)
     cells[c / side_ / joined * side + c % side_ / joined] += static_cast<float>(sky[c]);
