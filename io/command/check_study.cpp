@@ -244,10 +244,10 @@ int check_study(const std::string& path, const RunOptions& options, const CheckR
   use_threads(options);
   const StudyFile file = read_study(path);
   tell_warnings(file.warnings);
-  nlohmann::ordered_json json;
+  const std::string folder = results_folder(file, options);
+  nlohmann::ordered_json json{{"study", file.name}, {"folder", folder}};
   json["variants"] = nlohmann::ordered_json::array();
   std::size_t units = 0;
-  const std::string folder = results_folder(file, options);
   Problems problems;
   Planner planner;
   const MeshFamilies families(file, planner);

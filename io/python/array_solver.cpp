@@ -30,7 +30,7 @@ class Alone {
     constexpr std::chrono::milliseconds patience{50};
     while (!lock_.try_lock_for(patience))
       if (is_stopped()) throw Interrupted("stopped on request");
-    threads_before_ = thread_count();
+    threads_before_ = chosen_thread_count();
     if (threads > 0) set_thread_count(threads);
     set_cancellation(std::move(is_stopped));
   }

@@ -53,7 +53,9 @@ int processors_by_affinity() {
 
 int thread_count() { return chosen_threads > 0 ? chosen_threads : processors_by_affinity(); }
 
-void set_thread_count(int threads) { chosen_threads = std::max(1, threads); }
+void set_thread_count(int threads) { chosen_threads = std::max(0, threads); }
+
+int chosen_thread_count() { return chosen_threads; }
 
 void set_cancellation(std::function<bool()> is_cancelled) {
   cancellation = std::move(is_cancelled);

@@ -15,8 +15,11 @@ namespace sunload {
 int processors_by_affinity();
 /// Threads that parallel loops use; at start the processors this process may run on.
 int thread_count();
-/// At least 1. Results never depend on it.
+/// 1 or more, or 0: always as many as the processors that this process may run on. Results never
+/// depend on it.
 void set_thread_count(int threads);
+/// What it has been set to; 0 at start.
+int chosen_thread_count();
 
 /// From now on every parallel loop asks this before each chunk, from any thread,
 /// and ends with Interrupted where the answer is true. Empty: never.

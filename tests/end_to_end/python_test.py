@@ -6,6 +6,7 @@
 python_test.py SUNLOAD SOURCE_FOLDER
 """
 
+import json
 import os
 import sys
 import tempfile
@@ -48,7 +49,42 @@ def expect_errors(sunload, folder):
     assert "letters, digits" in raised(sunload.InputError, lambda: sunload.Study(study(name="a b"), folder))
     assert "another study" in raised(sunload.InputError, lambda: sunload.Study(study(mesh={"max_edge_m": 9}), folder))
     assert "run` has written" in raised(sunload.InputError, lambda: sunload.open(os.path.join(folder, "square.obj")))
-    raised(sunload.InputError, lambda: sunload.open(os.path.join(folder, "none.h5")))
+    for name in ("square.obj", "none.h5", "."):
+        told = raised(sunload.InputError, lambda: sunload.open(os.path.join(folder, name)))  # noqa: B023
+        assert "errno" not in told and "file signature" not in told, told
+
+
+def expect_program_named(sunload, folder):
+    """What SUNLOAD names and cannot be started is told; the version is the program's."""
+    named = os.environ["SUNLOAD"]
+    assert program_of(sunload).run(["--version"]).split()[1] == sunload.__version__
+    try:
+        for wrong in (os.path.join(folder, "none"), os.path.join(folder, "square.obj")):
+            os.environ["SUNLOAD"] = wrong
+            told = raised(sunload.MachineError, lambda: program_of(sunload).run(["--version"]))
+            assert wrong in told and "SUNLOAD" in told, told
+    finally:
+        os.environ["SUNLOAD"] = named
+
+
+def program_of(sunload):
+    return sys.modules[sunload.InputError.__module__]
+
+
+def expect_own_folder(sunload, folder):
+    """Name and folder are those that the program reads, in whatever order they stand."""
+    path = os.path.join(folder, "order.yaml")
+    rest = study(name="order", output={"folder": "elsewhere"})
+    del rest["variants"]
+    text = {"format": "sunload-study-1", "variants": [{"name": "first"}], **rest}
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(text, file)
+    ran = sunload.Study(path, folder)
+    assert ran.name == "order"
+    assert ran.run().paths == {"first": os.path.join(folder, "elsewhere", "order", "first.h5")}
+    assert os.path.exists(ran.run().paths["first"])
+    there = ran.run(output="there").paths["first"]
+    assert there == os.path.join(folder, "there", "order", "first.h5") and os.path.exists(there)
 
 
 def expect_result(sunload, result):
@@ -114,6 +150,8 @@ def main():
         assert again.paths == sunload.Study(again_file, folder).run(variants="dark").paths
         assert list(again) == ["dark"] and os.path.exists(again.paths["dark"])
         expect_errors(sunload, folder)
+        expect_program_named(sunload, folder)
+        expect_own_folder(sunload, folder)
 
 
 main()

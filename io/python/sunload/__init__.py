@@ -17,4 +17,6 @@ from .program import InputError, MachineError, ProgramError, Unfinished
 from .results import Accessor, open
 from .studies import Report, Study
 
+__version__ = "0.1.0"  # of the program that it comes with
+
 __all__ = ["Accessor", "InputError", "MachineError", "ProgramError", "Report", "Study", "Unfinished", "open", "solve"]

@@ -52,11 +52,22 @@ def program() -> str:
     return found
 
 
+def _started(words: Sequence[str], folder: Optional[str]) -> subprocess.Popen:
+    if folder is not None and not os.path.isdir(folder):
+        raise InputError(f"{folder}: is no folder; make it first, or name another", 2)
+    try:
+        return subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                cwd=folder, encoding="utf-8", errors="replace")
+    except OSError as error:
+        hint = "set the environment variable SUNLOAD, which names it, to the program `sunload`, or unset it" \
+            if os.environ.get("SUNLOAD") else "name the program `sunload` by the environment variable SUNLOAD"
+        raise MachineError(f"{words[0]}: cannot be started ({error.strerror}); {hint}", 3) from error
+
+
 def run(words: Sequence[str], folder: Optional[str] = None, line: Optional[Callable[[str], bool]] = None) -> str:
     """Standard output of `sunload WORDS`, started in `folder`. `line` gets each line of the standard error as it comes
     and tells whether it is of no interest for messages. Raises ProgramError where the exit code is not 0."""
-    with subprocess.Popen([program(), *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, cwd=folder, encoding="utf-8", errors="replace") as process:
+    with _started([program(), *words], folder) as process:
         if line is None:
             out, err = process.communicate()
         else:

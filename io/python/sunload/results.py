@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import builtins
 import json
 import os
 import warnings
@@ -34,11 +35,10 @@ def open(path: Union[str, os.PathLike]) -> xarray.Dataset:  # pylint: disable=re
             warnings.filterwarnings("ignore", "invalid value encountered in cast", RuntimeWarning)
             result = xarray.open_dataset(path, engine="h5netcdf", decode_timedelta=False)
     except (OSError, ValueError) as error:
-        raise program.InputError(f"{path}: cannot be read ({error}); name a file that `sunload run` has written",
-                                 2) from error
+        raise _no_result(path, _why_unreadable(path)) from error
     if not str(result.attrs.get("sunload_format", "")).startswith("sunload-result-"):
         result.close()
-        raise program.InputError(f"{path}: is no result of sunload; name a file that `sunload run` has written", 2)
+        raise _no_result(path, "is no result of sunload")
     names = {"object_of": ("patch_object", "object"), "facade_of": ("patch_facade", "facade"),
              "material_of": ("patch_material", "material")}
     coordinates = {}
@@ -55,6 +55,20 @@ def open(path: Union[str, os.PathLike]) -> xarray.Dataset:  # pylint: disable=re
     result = result.assign_coords(coordinates)
     result.encoding.update(source=path, sizes=dict(result.sizes))
     return result
+
+
+def _no_result(path: str, what: str) -> program.InputError:
+    return program.InputError(f"{path}: {what}; name a file that `sunload run` has written", 2)
+
+
+def _why_unreadable(path: str) -> str:
+    """In the system's words where it does not let the file be read; those of HDF5 tell of its own."""
+    try:
+        with builtins.open(path, "rb") as file:
+            is_hdf5 = file.read(8) == b"\x89HDF\r\n\x1a\n"
+    except OSError as error:
+        return f"cannot be read ({error.strerror})"
+    return "is no result of sunload, or a damaged one" if is_hdf5 else "is no result of sunload"
 
 
 def _rows(text: str) -> pandas.DataFrame:
@@ -181,7 +195,8 @@ class Accessor:
 
     def compare(self, other: Union[xarray.Dataset, str, os.PathLike], quantity: str = "light_load") -> pandas.DataFrame:
         """Differences of `other` to this result per facade, object and surface, of the light load with errors and
-        significance: what `sunload compare --csv` tells (docs/variants.md)."""
+        significance: the rows of `sunload compare --json` (docs/variants.md), which beside those of
+        `--csv` have degrees_of_freedom and mesh_error_kwh_m2."""
         path = other.sunload._whole() if isinstance(other, xarray.Dataset) else os.fspath(other)
         return _rows(program.run(["compare", self._whole(), path, "--quantity", quantity, "--json"]))
 

@@ -18,7 +18,8 @@ Progress = Callable[[Dict[str, Any]], None]
 
 
 class Report(dict):
-    """What `sunload check --json` tells: variants with patches, intervals, memory_bytes, disk_bytes, seconds."""
+    """What `sunload check --json` tells: study (its name), folder (of all results, relative to the study's folder of
+    work), variants with patches, intervals, memory_bytes, disk_bytes, seconds."""
 
     @property
     def seconds(self) -> float:
@@ -64,12 +65,22 @@ class Study:
         self.folder = os.path.abspath(folder or os.getcwd())
         self.report: Optional[Report] = None
         if isinstance(study, collections.abc.Mapping):
-            self.name, self.path = self._written(dict(study))
+            self.path = self._written(dict(study))
         else:
             self.path = os.path.abspath(os.fspath(study))
-            self.name = self._name_in_file()
+            self._expect_readable()
 
-    def _written(self, study: Dict[str, Any]):
+    @property
+    def name(self) -> str:
+        """The study's name; a study that is not checked yet is."""
+        return self._checked()["study"]
+
+    def _checked(self) -> Report:
+        if self.report is None:
+            self.check()
+        return self.report
+
+    def _written(self, study: Dict[str, Any]) -> str:
         study.setdefault("format", "sunload-study-1")
         name = study.get("name")
         if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z0-9_-][A-Za-z0-9_.-]*", name):
@@ -91,7 +102,7 @@ class Study:
                 os.replace(path, path + "~")
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
-        return name, path
+        return path
 
     def _is_of_no_use(self, path: str, text: str) -> bool:
         """Whether a file is a study that was written from a dict and that the program refuses: a slip to be mended."""
@@ -105,15 +116,12 @@ class Study:
             return True
         return False
 
-    def _name_in_file(self) -> str:
+    def _expect_readable(self) -> None:
         try:
-            with open(self.path, encoding="utf-8") as file:
-                text = file.read()
+            with open(self.path, "rb"):
+                pass
         except OSError as error:
             raise program.InputError(f"{self.path}: cannot be read ({error.strerror})", 2) from error
-        found = re.search(r"""^["']?name["']?\s*:\s*["']?([A-Za-z0-9_.-]+)""", text, re.MULTILINE) or \
-            re.search(r"""["']name["']\s*:\s*["']([A-Za-z0-9_.-]+)["']""", text)
-        return found.group(1) if found else ""
 
     def check(self, refine: bool = False) -> "Study":
         """Reads everything and estimates work (`report`); with `refine` meshes are refined as a run does it. Raises
@@ -122,25 +130,27 @@ class Study:
         self.report = Report(json.loads(program.run(words, self.folder)))
         return self
 
-    def run(self, variants: Union[str, Sequence[str]] = (), output: str = "results", resume: bool = True, overwrite: bool = False,
-            threads: Optional[int] = None, progress: Optional[Progress] = None) -> Results:
-        """Computes what is missing below `output` (relative to the study's folder of work) and returns the results.
+    def run(self, variants: Union[str, Sequence[str]] = (), output: Optional[str] = None, resume: bool = True,
+            overwrite: bool = False, threads: Optional[int] = None, progress: Optional[Progress] = None) -> Results:
+        """Computes what is missing below `output` (relative to the study's folder of work; None: the study's own
+        output.folder) and returns the results.
 
         resume: finished results of this very study are taken as they are; overwrite: others are replaced. `progress`
         gets dicts with `variant`, `stage`, `share` (of the stage, 0 … 1), `suns_done`, `suns`, `left_s`, and others with
         `message` alone. Raises InputError, MachineError, Unfinished."""
         variants = [variants] if isinstance(variants, str) else list(variants)
-        words: List[str] = ["run", self.path, "--output", output, "--progress", "json" if progress else "none"]
+        words: List[str] = ["run", self.path, "--progress", "json" if progress else "none"]
+        if output is not None:
+            words += ["--output", os.fspath(output)]
         for variant in variants:
             words += ["--variant", variant]
         words += ["--overwrite"] if overwrite else ["--resume"] if resume else []
         if threads is not None:
             words += ["--threads", str(threads)]
         program.run(words, self.folder, _listener(progress) if progress else None)
-        if self.report is None:
-            self.check()
-        names = variants or [variant["name"] for variant in self.report["variants"]]
-        place = os.path.join(self.folder, output, self.name)
+        report = self._checked()
+        names = variants or [variant["name"] for variant in report["variants"]]
+        place = os.path.join(self.folder, report["folder"] if output is None else os.fspath(output), report["study"])
         return Results({name: os.path.join(place, name + ".h5") for name in names})
 
 

@@ -74,6 +74,7 @@ TEST(ArraySolver, HasTheSameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(one.light_load.standard_error, more.light_load.standard_error);
   }
   EXPECT_EQ(thread_count(), before);
+  EXPECT_EQ(chosen_thread_count(), 0) << "they follow the processors as before";
 }
 
 TEST(ArraySolver, EndsWhereItIsStoppedAndLeavesNothingBehind) {

@@ -22,7 +22,7 @@ namespace {
 /// Sets the number of threads and puts the old one back.
 class Threads {
  public:
-  explicit Threads(int count) : before_(thread_count()) { set_thread_count(count); }
+  explicit Threads(int count) : before_(chosen_thread_count()) { set_thread_count(count); }
   ~Threads() { set_thread_count(before_); }
 
  private:
@@ -142,9 +142,12 @@ TEST(OrderedSum, HasTheSameBitsForAnyNumberOfThreads) {
   EXPECT_NE(backwards, one);
 }
 
-TEST(ThreadCount, IsAtLeastOne) {
-  const Threads set(0);
-  EXPECT_EQ(thread_count(), 1);
+TEST(ThreadCount, FollowsTheProcessorsWhereNoneIsChosen) {
+  const Threads set(3);
+  EXPECT_EQ(thread_count(), 3);
+  set_thread_count(0);
+  EXPECT_EQ(thread_count(), processors_by_affinity());
+  EXPECT_EQ(chosen_thread_count(), 0);
 }
 
 }  // namespace
