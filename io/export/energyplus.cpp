@@ -182,8 +182,9 @@ void export_energyplus(const ResultReader& result, const ExportRules& rules,
   if (!rules.quantity.empty() || !rules.time.empty())
     throw InputError({}, "--quantity and --time with --to energyplus",
                      "the file holds the sunlit fractions of all intervals", "leave them out");
-  if (!rules.parts.objects.empty() || !rules.parts.sensors.empty())
-    throw InputError({}, "--object and --sensor with --to energyplus",
+  if (!rules.parts.objects.empty() || !rules.parts.selections.empty() ||
+      !rules.parts.sensors.empty())
+    throw InputError({}, "--object, --selection and --sensor with --to energyplus",
                      "the file holds facades and roofs", "write --facade");
   const ShadingYear year = expected_year(result);
   const Direct direct = direct_light(result);

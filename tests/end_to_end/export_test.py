@@ -542,6 +542,9 @@ def test_geopackage(exports):
 def test_energyplus(exports):
     ran = exports.run("export", RESULT, "--to", "energyplus")
     assert ran.returncode == WRONG_INPUT and "365" in ran.stderr and not ran.stdout, ran.stderr
+    for word in ("--object", "--selection", "--sensor"):
+        ran = exports.run("export", RESULT, "--to", "energyplus", word, "0")
+        assert ran.returncode == WRONG_INPUT and "write --facade" in ran.stderr and not ran.stdout, ran.stderr
 
 
 YEAR = """period: {start: 2025-01-01T00:00, end: 2026-01-01T00:00, step_min: 60}
