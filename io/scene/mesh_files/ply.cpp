@@ -248,21 +248,34 @@ class BodyReader {
       else
         skip();
     }
-    if (highest_ >= static_cast<double>(faces_.vertex_count())) refuse_index(highest_, highest_at_);
+    if (highest_.index >= static_cast<double>(faces_.vertex_count())) refuse_index(highest_);
   }
 
  private:
+  /// A corner of a face, and where the file has it.
+  struct Corner {
+    double index = -1;
+    const Element* element = nullptr;
+    std::size_t face = 0, byte = 0;
+  };
+
   [[noreturn]] void fail(std::size_t number, const std::string& what, const std::string& why,
                          const std::string& hint = {}) const {
-    const bool is_text = header_.encoding == Encoding::ascii;
-    throw InputError(is_text ? place_in_text(path_, text_, numbers_.byte()) : Where{path_},
-                     fmt::format("{} {}: {}", element_->name, number, what), why, hint);
+    throw InputError(place(numbers_.byte()), fmt::format("{} {}: {}", element_->name, number, what),
+                     why, hint);
   }
 
-  [[noreturn]] void refuse_index(double index, std::size_t number) const {
-    fail(number, fmt::format("vertex index {} is out of range", index),
-         fmt::format("{} vertices were read, counted from 0", faces_.vertex_count()),
-         "is the file cut off?");
+  [[noreturn]] void refuse_index(const Corner& corner) const {
+    throw InputError(place(corner.byte),
+                     fmt::format("{} {}: vertex index {} is out of range", corner.element->name,
+                                 corner.face, corner.index),
+                     fmt::format("{} vertices were read, counted from 0", faces_.vertex_count()),
+                     "is the file cut off?");
+  }
+
+  Where place(std::size_t byte) const {
+    const bool is_text = header_.encoding == Encoding::ascii;
+    return is_text ? place_in_text(path_, text_, byte) : Where{path_};
   }
 
   /// A header may promise anything: what the body cannot hold is refused before memory is asked
@@ -361,10 +374,10 @@ class BodyReader {
       const double index = number(property.type, face);
       if (!(index >= 0 && index <= std::numeric_limits<std::int32_t>::max()) ||
           std::floor(index) != index) {
-        refuse_index(index, face);
+        refuse_index({index, element_, face, numbers_.byte()});
       }
       // Faces may come before their vertices: only the end of the file tells.
-      if (index > highest_) highest_ = index, highest_at_ = face;
+      if (index > highest_.index) highest_ = {index, element_, face, numbers_.byte()};
       faces_.add_corner(static_cast<std::int32_t>(index));
     }
     faces_.end_face();
@@ -385,8 +398,7 @@ class BodyReader {
   Numbers numbers_;
   IndexedFaces& faces_;
   const Element* element_ = nullptr;
-  double highest_ = -1;
-  std::size_t highest_at_ = 0;
+  Corner highest_;  ///< of the largest index, the first of these
 };
 
 }  // namespace

@@ -73,6 +73,12 @@ TEST(ScenePly, RefusesWhatIsBroken) {
   EXPECT_EQ(refusal("r.ply", head + points + "3 0 1 3\n").substr(0, 6), "r.ply:");
   EXPECT_NE(refusal("r.ply", head + points + "3 0 1 -1\n").find("out of range"), std::string::npos);
   EXPECT_NE(refusal("r.ply", head + points + "3 0 1.5 2\n"), "");
+  // Elements behind the faces are not to blame.
+  const std::string edges = "element edge 1\nproperty int vertex1\nend_header\n";
+  const std::string with_edges = head.substr(0, head.find("end_header")) + edges;
+  EXPECT_EQ(refusal("r.ply", with_edges + points + "3 0 1 3\n0\n")
+                .substr(0, std::string("r.ply:15:7: face 0: vertex index 3").size()),
+            "r.ply:15:7: face 0: vertex index 3");
   EXPECT_NE(refusal("r.ply", head + points + "3 0 1.5e10 1\n").find("out of range"),
             std::string::npos);
   EXPECT_NE(refusal("r.ply", head + points + "-3 0 1 2\n").find("a list of -3"), std::string::npos);
