@@ -47,8 +47,9 @@ struct RenderRules {
   /// From a point to a point, as io/picture/viewpoint.h reads them. An eye alone is before a
   /// facade and looks where it does; what is looked at alone is seen as by the overview.
   std::string eye, look;
-  /// Of the overview and of eye and look; parallel pictures hold the whole scene.
-  Projection projection = Projection::perspective;
+  /// Of the overview and of eye and look, perspective where left out; parallel pictures hold the
+  /// whole scene. The cameras of the sun and from above are always parallel.
+  std::optional<Projection> projection;
   int width = 1600, height = 1000;  ///< of the whole picture [pixels], 320 … 16384
   std::optional<double> largest;    ///< value of the last colour, in units of the quantity
   PictureColours colours = PictureColours::of_values;

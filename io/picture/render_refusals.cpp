@@ -31,10 +31,13 @@ void expect_sense(const RenderRules& rules) {
   if (!rules.look.empty() && rules.eye.empty() && rules.parts.choose_patches())
     problems.add({}, "--look without --eye, with --facade or --object",
                  "both say what the picture is of", "leave out one");
-  const bool is_free =
-      !rules.eye.empty() || (rules.view == View::overview && rules.parts.facades.empty());
-  if (rules.projection == Projection::parallel && !is_free)
-    problems.add({}, "--projection with this camera", "it is always parallel", "leave it out");
+  if (rules.projection == Projection::perspective && rules.eye.empty() &&
+      rules.view != View::overview)
+    problems.add({}, "--projection perspective with --camera top or sun", "they are parallel",
+                 "leave it out, or write --camera overview or --eye");
+  if (rules.projection && rules.eye.empty() && !rules.parts.facades.empty())
+    problems.add({}, "--projection with --facade", "facades have a camera of their own",
+                 "leave it out, or write --object");
   if (rules.crease_angle_deg && !rules.interpolate)
     problems.add({}, "--crease-angle without --interpolate",
                  "patches of one colour have no creases", "add --interpolate");

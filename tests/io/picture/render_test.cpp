@@ -585,6 +585,10 @@ TEST(Render, RefusesWhatTheResultDoesNotHave) {
       with([](RenderRules& r) { r.crease_angle_deg = 10; }),
       with([](RenderRules& r) {
         r.view = View::top;
+        r.projection = Projection::perspective;
+      }),
+      with([](RenderRules& r) {
+        r.parts.facades = {"*"};
         r.projection = Projection::parallel;
       }),
       with([](RenderRules& r) { r.width = 10; })};
