@@ -133,8 +133,29 @@ void expect_none_read_and_written(const Command::Parts& command) {
           expect_not_read(path, input.option->results());
 }
 
+/// Behind the type of its values, which is CLI11's alone: "INT:1 to 4096".
+std::string range_of(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const auto colon = type.find(':');
+  return colon == std::string::npos ? std::string() : type.substr(colon + 1);
+}
+
+std::vector<std::string> rules_of(const CLI::Option& option) {
+  std::vector<std::string> rules;
+  if (option.get_required()) rules.emplace_back("required");
+  if (const auto range = range_of(option); !range.empty()) rules.push_back(range);
+  if (const auto value = option.get_default_str(); !value.empty())
+    rules.push_back("default: " + value);
+  if (const auto variable = option.get_envname(); !variable.empty())
+    rules.push_back("or by the environment variable " + variable);
+  for (const CLI::Option* other : option.get_excludes())
+    rules.push_back("not with " + other->get_name());
+  return rules;
+}
+
 OptionWords words_of(const CLI::Option& option) {
-  OptionWords words{{}, {}, option.get_description(), {}};
+  OptionWords words{
+      .names = {}, .argument = {}, .what = option.get_description(), .rules = rules_of(option)};
   for (const auto& name : option.get_snames()) words.names.push_back("-" + name);
   for (const auto& name : option.get_lnames()) words.names.push_back("--" + name);
   const bool is_flag = option.get_items_expected_max() == 0;

@@ -23,10 +23,11 @@ void add_result(const Command& command, std::string& result) {
   command.option("RESULT", result, "result file (.h5)").read().required().single();
 }
 
-void add_named(const Command& command, NamedParts& parts, const std::string& only) {
+void add_named(const Command& command, NamedParts& parts, const std::string& only,
+               const std::string& only_facades) {
   command
       .option("--facade", parts.facades,
-              only +
+              (only_facades.empty() ? only : only_facades) +
                   " the facade of that name, or those of a pattern: 'house_3/*' "
                   "(repeatable)")
       .repeatable();
@@ -39,17 +40,20 @@ void add_named(const Command& command, NamedParts& parts, const std::string& onl
 }
 
 void add_band(const Command& command, std::string& band) {
-  command.option("--band", band,
-                 "of a result with solver.bands: rgb: red, green or blue (default: their mean)");
+  command
+      .option("--band", band,
+              "of a result with solver.bands: rgb: red, green or blue (default: their mean)")
+      .completed_by({"red", "green", "blue"});
 }
 
 void add_period(const Command& command, PeriodChoice& period) {
   const auto add = [&](const char* option, std::string& words, const char* meaning) {
-    command.option(option, words, meaning)
+    return command.option(option, words, meaning)
         .under("Part of the period (civil time of the site; all that is given holds)");
   };
   add("--month", period.month, "totals of a month: 1 to 12, or 2026-06");
-  add("--season", period.season, "of a season of the study, or spring, summer, autumn, winter");
+  add("--season", period.season, "of a season of the study, or spring, summer, autumn, winter")
+      .completed_by({"spring", "summer", "autumn", "winter"});
   add("--day", period.day, "of a day: 2026-06-21");
   add("--hours", period.hours, "of hours of day: 8-12, from 8:00 to 12:00");
   add("--from", period.from, "from a date or time on: 2026-06-01, 2026-06-21T12:00");

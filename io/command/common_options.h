@@ -20,8 +20,10 @@ void add_place(const Command& command, RunOptions& options);
 /// A result file, exactly one.
 void add_result(const Command& command, std::string& result);
 
-/// Facades, objects and selections by name or pattern; `only` is what is done with them alone.
-void add_named(const Command& command, NamedParts& parts, const std::string& only);
+/// Facades, objects and selections by name or pattern; `only` is what is done with them alone,
+/// `only_facades` where that of facades differs.
+void add_named(const Command& command, NamedParts& parts, const std::string& only,
+               const std::string& only_facades = {});
 
 /// Which band of a result in bands.
 void add_band(const Command& command, std::string& band);

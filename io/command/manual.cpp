@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <string_view>
 
 #include "io/base/file_aside.h"
 #include "io/base/machine.h"
@@ -48,6 +48,11 @@ std::string positional_words(const CommandWords& command) {
   return text;
 }
 
+std::string described(const OptionWords& option) {
+  return option.rules.empty() ? option.what
+                              : fmt::format("{} ({})", option.what, joined(option.rules, "; "));
+}
+
 std::string command_page(const CommandWords& command) {
   std::string text = page_head("sunload-" + command.name, command.what);
   text += fmt::format(".SH SYNOPSIS\n.B sunload {}\n{} [\\fIOPTION\\fR]...\n", roff(command.name),
@@ -59,7 +64,7 @@ std::string command_page(const CommandWords& command) {
                         option.names.empty() || option.argument.empty()
                             ? ""
                             : fmt::format(" \\fI{}\\fR", roff(option.argument)),
-                        roff(option.what));
+                        roff(described(option)));
   }
   if (!command.examples.empty())
     text += fmt::format(".SH EXAMPLES\n.nf\n{}\n.fi\n", roff(command.examples));
@@ -101,28 +106,47 @@ std::vector<std::string> option_names(const CommandWords& command) {
   return names;
 }
 
+/// Words of the first argument that is known by its place.
+std::vector<std::string> first_choices(const CommandWords& command) {
+  for (const auto& option : command.options)
+    if (option.names.empty()) return option.choices;
+  return {};
+}
+
 std::string bash_completion(const std::vector<CommandWords>& commands) {
   std::vector<std::string> names;
-  std::string options, choices;
+  std::string options, choices, first;
+  const auto add = [](std::string& cases, const std::string& word,
+                      const std::vector<std::string>& words) {
+    if (!words.empty())
+      cases += fmt::format("    {}) words={} ;;\n", word, shell(joined(words, " ")));
+  };
   for (const auto& command : commands) {
     names.push_back(command.name);
-    options += fmt::format("    {}) words={} ;;\n", command.name,
-                           shell(joined(option_names(command), " ")));
+    add(options, command.name, option_names(command));
+    add(first, command.name + ":2", first_choices(command));
     for (const auto& option : command.options)
-      if (!option.choices.empty())
-        for (const auto& name : option.names)
-          choices += fmt::format("    {}:{}) words={} ;;\n", command.name, name,
-                                 shell(joined(option.choices, " ")));
+      for (const auto& name : option.names) add(choices, command.name + ":" + name, option.choices);
   }
   return fmt::format(
       "# bash completion of sunload\n"
       "_sunload() {{\n"
       "  local word=\"${{COMP_WORDS[COMP_CWORD]}}\" command=\"${{COMP_WORDS[1]}}\" words=\"\"\n"
+      "  local before=\"${{COMP_WORDS[COMP_CWORD-1]}}\"\n"
+      "  # Readline takes --option=word apart at \"=\".\n"
+      "  if [[ \"$word\" == \"=\" ]]; then\n"
+      "    word=\"\"\n"
+      "  elif [[ \"$before\" == \"=\" ]]; then\n"
+      "    before=\"${{COMP_WORDS[COMP_CWORD-2]}}\"\n"
+      "  fi\n"
       "  if ((COMP_CWORD == 1)); then\n"
       "    mapfile -t COMPREPLY < <(compgen -W {} -- \"$word\")\n"
       "    return\n"
       "  fi\n"
-      "  case \"$command:${{COMP_WORDS[COMP_CWORD-1]}}\" in\n{}  esac\n"
+      "  case \"$command:$before\" in\n{}  esac\n"
+      "  if [[ -z \"$words\" && \"$word\" != -* ]]; then\n"
+      "    case \"$command:$COMP_CWORD\" in\n{}    esac\n"
+      "  fi\n"
       "  if [[ -n \"$words\" ]]; then\n"
       "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
       "    return\n"
@@ -132,33 +156,47 @@ std::string bash_completion(const std::vector<CommandWords>& commands) {
       "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
       "}}\n"
       "complete -o default -F _sunload sunload\n",
-      shell(joined(names, " ") + " --help --version"), choices, options);
+      shell(joined(names, " ") + " --help --version"), choices, first, options);
 }
 
-/// A description within `[…]` of _arguments.
-std::string zsh_what(std::string text) {
-  for (const auto& [from, to] : {std::pair{'[', '('}, {']', ')'}, {':', ';'}, {'\'', '"'}})
-    std::replace(text.begin(), text.end(), from, to);
-  return text;
+/// Behind backslashes what zsh would take for its own.
+std::string escaped(const std::string& text, std::string_view special) {
+  std::string out;
+  for (const char letter : text) {
+    if (letter == '\\' || special.find(letter) != std::string_view::npos) out += '\\';
+    out += letter;
+  }
+  return out;
+}
+
+/// What _arguments is told of one option, and completes behind it.
+std::string zsh_option(const std::string& name, const OptionWords& option) {
+  std::string spec = fmt::format("{}[{}]", name, escaped(option.what, "[]:"));
+  if (option.argument.empty()) return spec;
+  // --long=word is one word, too.
+  if (name.starts_with("--")) spec.insert(name.size(), "=");
+  return spec + (option.choices.empty() ? ":" + escaped(option.argument, ":") + ":_files"
+                                        : ": :(" + joined(option.choices, " ") + ")");
 }
 
 std::string zsh_completion(const std::vector<CommandWords>& commands) {
-  std::string names, cases;
+  std::string names, functions, cases;
   for (const auto& command : commands) {
-    names += fmt::format("    {}\n", shell(command.name + ":" + zsh_what(command.what)));
+    names += fmt::format("    {}\n", shell(command.name + ":" + escaped(command.what, ":")));
     cases += fmt::format("    {}) _arguments", command.name);
     for (const auto& option : command.options)
-      for (const auto& name : option.names) {
-        std::string spec = fmt::format("{}[{}]", name, zsh_what(option.what));
-        if (!option.argument.empty())
-          spec += option.choices.empty() ? ":" + zsh_what(option.argument) + ":_files"
-                                         : ": :(" + joined(option.choices, " ") + ")";
-        cases += " \\\n      " + shell(spec);
-      }
+      for (const auto& name : option.names)
+        cases += " \\\n      " + shell(zsh_option(name, option));
+    if (const auto words = first_choices(command); !words.empty()) {
+      const std::string name = "_sunload_" + command.name;
+      functions += fmt::format("{}() {{ compadd -- {}; _files }}\n", name, joined(words, " "));
+      cases += fmt::format(" \\\n      '1:name:{}'", name);
+    }
     cases += " \\\n      '*:file:_files' ;;\n";
   }
   return fmt::format(
       "#compdef sunload\n"
+      "{}"
       "local -a commands\n"
       "if ((CURRENT == 2)); then\n"
       "  commands=(\n{}  )\n"
@@ -169,7 +207,7 @@ std::string zsh_completion(const std::vector<CommandWords>& commands) {
       "  ((CURRENT--))\n"
       "  case \"$command\" in\n{}  esac\n"
       "fi\n",
-      names, cases);
+      functions, names, cases);
 }
 
 std::string fish_completion(const std::vector<CommandWords>& commands) {
@@ -177,6 +215,9 @@ std::string fish_completion(const std::vector<CommandWords>& commands) {
   for (const auto& command : commands) {
     text += fmt::format("complete -c sunload -n __fish_use_subcommand -a {} -d {}\n", command.name,
                         shell(command.what));
+    if (const auto words = first_choices(command); !words.empty())
+      text += fmt::format("complete -c sunload -n '__fish_seen_subcommand_from {}' -a {}\n",
+                          command.name, shell(joined(words, " ")));
     for (const auto& option : command.options)
       for (const auto& name : option.names) {
         const bool is_long = name.starts_with("--");

@@ -13,7 +13,10 @@ struct OptionWords {
   std::vector<std::string> names;  ///< --output, -o; empty: a positional one
   std::string argument;            ///< what it takes; empty: nothing, a flag
   std::string what;
-  std::vector<std::string> choices;  ///< words that it takes, where these are all
+  /// What else holds: its range, its default, the variable of the environment that it has its value
+  /// from where it is not given, what it does not go with.
+  std::vector<std::string> rules = {};
+  std::vector<std::string> choices = {};  ///< words that completions offer
 };
 struct CommandWords {
   std::string name, what, examples;

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -87,7 +89,7 @@ void add_camera(const Command& command, RenderOptions& options) {
   command.option("--look", rules.look, "what is looked at: x,y,z, NAME, NAME+dx,dy,dz");
   command.choice("--projection", rules.projection,
                  {{"perspective", Projection::perspective}, {"parallel", Projection::parallel}},
-                 "of overview and eye point");
+                 "of overview and eye point (default: perspective; top and sun are parallel)");
   command.option("--size", options.size, "WIDTHxHEIGHT in pixels").with_default_told();
 }
 
@@ -103,11 +105,9 @@ void add_colours(const Command& command, RenderGiven& given) {
                   {"material", {{PictureColours::of_materials, Palette::false_colour}}}},
                  "colours (rgb: the bands themselves, default quantity power_load; surface, "
                  "material: the scene without light, default surface of a study)");
-  command
-      .choice("--scale", rules.scale,
-              {{"linear", ColourScale::linear}, {"log", ColourScale::logarithmic}},
-              "of the colours (log: three powers of ten below the last one)")
-      .completed_by({});
+  command.choice("--scale", rules.scale,
+                 {{"linear", ColourScale::linear}, {"log", ColourScale::logarithmic}},
+                 "of the colours (log: three powers of ten below the last one)");
 }
 
 void add_appearance(const Command& command, RenderRules& rules) {
@@ -134,7 +134,10 @@ void add_conversion(const Command& command, ExportGiven& given) {
       .read()
       .required()
       .single();
-  command.option("--to", given.rules.format, "format: " + export_formats()).required();
+  const std::vector<std::string> formats = export_formats();
+  command.option("--to", given.rules.format, fmt::format("format: {}", fmt::join(formats, ", ")))
+      .required()
+      .completed_by(formats);
   command
       .option("-o,--output", given.output,
               "file to write (csv, vrml, cityjson, energyplus, form-factors as CSV: default "
@@ -148,12 +151,13 @@ void add_conversion(const Command& command, ExportGiven& given) {
 }
 
 void add_rows(const Command& command, ExportRules& rules) {
-  command.option(
-      "--of", rules.of,
-      "csv: a row for every patch (default), facade, object, orientation, selection or sensor; "
-      "form-factors: "
-      "between patches (default), facades, objects or kinds of surface");
-  add_named(command, rules.parts, "csv, gpkg, energyplus: only");
+  command
+      .option("--of", rules.of,
+              "csv: a row for every patch (default), facade, object, orientation, selection or "
+              "sensor; form-factors: between patches (default), facades, objects or kinds of "
+              "surface")
+      .completed_by({"patch", "facade", "object", "orientation", "selection", "sensor", "surface"});
+  add_named(command, rules.parts, "csv, gpkg: only", "csv, gpkg, energyplus: only");
   command.option("--sensor", rules.parts.sensors, "csv, gpkg: only the sensor of that number")
       .repeatable();
 }

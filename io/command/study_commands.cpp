@@ -95,7 +95,8 @@ void add_init(CommandLine& line) {
       .repeatable()
       .completed_by(offered_rules());
   command.option("--example", given->example, "copy a study that comes with the program instead")
-      .excludes(model);
+      .excludes(model)
+      .completed_by(example_names());
   command.examples(
       "sunload init town.city.json                        # place and north from the file's CRS\n"
       "sunload init house.obj weather.epw                 # a year of weather\n"
@@ -186,7 +187,8 @@ void add_scene(CommandLine& line) {
       .option("NAME", given->name,
               fmt::format("a study (.yaml), or one of: {}", fmt::join(builtin_scene_names(), ", ")))
       .read()
-      .required();
+      .required()
+      .completed_by(builtin_scene_names());
   command.option("--variant", given->variant, "of a study (default: its first)");
   command.option("-o,--output", given->path, "file to write (.obj, .city.json)")
       .written()

@@ -43,7 +43,8 @@ constexpr std::array formats{
 const ExportFormat& chosen_format(const std::string& word) {
   for (const auto& format : formats)
     if (format.word == word) return format;
-  throw InputError({}, "--to " + word, "no such format", "write one of: " + export_formats());
+  throw InputError({}, "--to " + word, "no such format",
+                   fmt::format("write one of: {}", fmt::join(export_formats(), ", ")));
 }
 
 /// Options that the format would not heed are refused, not dropped.
@@ -108,11 +109,12 @@ void expect_part_heeded(const ResultReader& result, const ExportFormat& format,
 
 }  // namespace
 
-std::string export_formats() {
-  std::string words;
-  for (const auto& format : formats)
-    words += (words.empty() ? "" : ", ") + std::string(format.word);
-  return words + ", " + std::string(form_factors_word);
+std::vector<std::string> export_formats() {
+  std::vector<std::string> words;
+  words.reserve(formats.size() + 1);
+  for (const auto& format : formats) words.emplace_back(format.word);
+  words.emplace_back(form_factors_word);
+  return words;
 }
 
 void export_result(const ResultReader& result, const ExportRules& rules, const std::string& path) {

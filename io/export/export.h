@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/base/colour_map.h"
 #include "io/result/named_parts.h"
@@ -33,8 +34,8 @@ struct ExportRules {
 /// The word of form factors, which are of a scene and not of its light: io/factors.
 inline constexpr std::string_view form_factors_word = "form-factors";
 
-/// "csv, vtk, …, form-factors": words for `--to`.
-std::string export_formats();
+/// csv, vtk, …, form-factors: words for `--to`.
+std::vector<std::string> export_formats();
 
 /// Writes a result to a file that appears when it is complete; an empty `path` is the standard
 /// output, for formats of text. Patches keep their order; positions are those of the result:

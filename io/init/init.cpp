@@ -174,15 +174,6 @@ void print_next(const std::string& path, const std::string& name, const std::str
   if (!measures.empty()) std::cout << fmt::format("  sunload info {} --measures\n", result);
 }
 
-std::vector<std::string> example_names(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code unknown;
-  for (const auto& entry : fs::directory_iterator(folder, unknown))
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 std::string listed(const std::vector<std::string>& words) {
   std::string text;
   for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
@@ -190,6 +181,17 @@ std::string listed(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+std::vector<std::string> example_names() {
+  const std::string data = data_folder();
+  std::vector<std::string> names;
+  if (data.empty()) return names;
+  std::error_code unknown;
+  for (const auto& entry : fs::directory_iterator(fs::path(data) / "configs", unknown))
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 int init_study(const InitRules& given, const std::string& wanted) {
   InitRules rules = given;
@@ -232,7 +234,7 @@ int init_example(const std::string& name, const std::string& wanted) {
                      "install it with `cmake --install`, or run it where it was built");
   const fs::path configs = fs::path(data) / "configs";
   const fs::path study = configs / (name + ".yaml");
-  const auto names = example_names(configs);
+  const auto names = example_names();
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw InputError({}, "--example " + name, "there is no such example",
                      "write one of: " + listed(names));

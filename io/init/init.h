@@ -19,4 +19,7 @@ int init_study(const InitRules& rules, const std::string& path);
 /// the working one). Throws InputError for a name that is none, and where a file is there.
 int init_example(const std::string& name, const std::string& folder);
 
+/// Names of these studies, sorted; none where they are not beside the program.
+std::vector<std::string> example_names();
+
 }  // namespace sunload

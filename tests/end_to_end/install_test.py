@@ -42,7 +42,8 @@ def expect_manual(prefix, program):
                                  stderr=subprocess.PIPE, encoding="utf-8", env=dict(os.environ, MANWIDTH="80"))
             assert ran.returncode == 0 and not ran.stderr, f"{page}: {ran.stderr}"
     with gzip.open(os.path.join(prefix, "share/man/man1/sunload-run.1.gz"), "rt", encoding="utf-8") as page:
-        assert "\\-\\-resume" in page.read()
+        text = page.read()
+    assert "\\-\\-resume" in text and "1 to 4096" in text and "SUNLOAD_THREADS" in text, text
 
 
 def expect_completions(prefix):
@@ -53,6 +54,13 @@ def expect_completions(prefix):
     assert complete("sunload", "re") == ["render"]
     assert complete("sunload", "run", "--res") == ["--resume"]
     assert complete("sunload", "render", "--camera", "t") == ["top"]
+    assert complete("sunload", "render", "--scale", "") == ["linear", "log"]
+    # Readline takes a word apart at "=".
+    assert complete("sunload", "run", "--progress", "=", "b") == ["bar"]
+    assert "bar" in complete("sunload", "run", "--progress", "=")
+    assert complete("sunload", "export", "--to", "en") == ["energyplus"]
+    assert complete("sunload", "scene", "str") == ["street"]
+    assert "street" in complete("sunload", "init", "--example", "")
     for shell, name in (("zsh", "zsh/vendor-completions/_sunload"), ("fish", "fish/vendor_completions.d/sunload.fish")):
         if shutil.which(shell):
             run([shell, "-n", os.path.join(prefix, "share", name)])
@@ -89,6 +97,22 @@ def expect_consumer(prefix, folder, cmake, flags):
     assert min(values) == 0 and 566 + 50 < max(values) < 1.5 * (566 + 100), (min(values), max(values))
 
 
+def expect_absence_told(prefix, folder, cmake):
+    """Where a library is missing, find_package tells it, and a project that can do without goes on."""
+    source = os.path.join(folder, "without")
+    os.makedirs(source)
+    with open(os.path.join(source, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+        file.write("cmake_minimum_required(VERSION 3.23)\nproject(without CXX)\nfind_package(sunload ${WISH})\n"
+                   "message(STATUS \"found: ${sunload_FOUND}, goes on\")\n")
+    ask = lambda wish: subprocess.run(
+        [cmake, "-S", source, "-B", os.path.join(folder, "without_" + wish), f"-DCMAKE_PREFIX_PATH={prefix}", f"-DWISH={wish}"],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", check=False,
+        env=dict(os.environ, PKG_CONFIG_LIBDIR=folder))
+    optional, required = ask("QUIET"), ask("REQUIRED")
+    assert optional.returncode == 0 and "found: 0, goes on" in optional.stdout, optional.stdout
+    assert required.returncode != 0 and "libgeographiclib-dev" in required.stdout, required.stdout
+
+
 def expect_python(prefix, build, folder):
     """The package with its compiled module, where the build has one."""
     if not glob.glob(os.path.join(build, "io/python/_native.*.so")):
@@ -121,6 +145,7 @@ def main():
         run(["bash", "-n", os.path.join(prefix, "share/sunload/scripts/demo")])
         expect_python(prefix, build, folder)
         expect_consumer(prefix, folder, cmake, compiler_flags(build))
+        expect_absence_told(prefix, folder, cmake)
 
 
 main()
