@@ -124,9 +124,16 @@ bool is_year_needed(const std::vector<std::string>& rules) {
 }
 
 std::string watched_series(const std::vector<std::string>& rules) {
-  const bool is_mirror_watched =
-      std::find(rules.begin(), rules.end(), "glint_hours") != rules.end();
-  return is_mirror_watched ? ", mirror" : "";
+  std::vector<std::string> parts;
+  for (const auto& word : rules) {
+    const MeasureRule& rule = *find_measure_rule(word);
+    const bool is_new = std::find(parts.begin(), parts.end(), rule.light) == parts.end();
+    if (rule.needs == MeasureRule::Needs::series && rule.light != "total" && is_new)
+      parts.push_back(rule.light);
+  }
+  std::string text;
+  for (const auto& part : parts) text += ", " + part;
+  return text;
 }
 
 std::string measure_text(const std::vector<std::string>& rules, const Findings& found) {

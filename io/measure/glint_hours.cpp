@@ -14,8 +14,9 @@ MeasureRule glint_hours() {
           "the means of its intervals",
       .source = "the study's own limits",
       .units = "h",
-      .keys = {{"above_w_m2", 0}, {"above_lx", 0}, {"most_h", 0}},
+      .keys = {{"above_w_m2", 0, true}, {"above_lx", 0, true}, {"most_h", 0}},
       .needs = MeasureRule::Needs::series,
+      .light = "mirror",
       .better = MeasureRule::Better::less,
       .levels = [](const MeasureParameters& of) -> std::vector<MeasureLevel> {
         if (of.number("most_h") == 0) return {};

@@ -49,7 +49,7 @@ MeasureRule light_hours() {
               "by the means of its intervals",
           .source = "the study's own limits",
           .units = "h",
-          .keys = {{"above_w_m2", 0}, {"above_lx", 0}, {"least_h", 0}},
+          .keys = {{"above_w_m2", 0, true}, {"above_lx", 0, true}, {"least_h", 0}},
           .words = {{"light", {"total", "direct", "sky", "mirror", "lamps", "reflected"}}},
           .needs = MeasureRule::Needs::series,
           .levels = [](const MeasureParameters& of) -> std::vector<MeasureLevel> {

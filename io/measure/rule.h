@@ -78,6 +78,10 @@ struct MeasureLevel {
 struct RuleKey {
   std::string key;
   std::optional<double> absent;
+  /// Written in place of such another, by the quantity of the study's light: one of them is needed.
+  bool is_one_of = false;
+
+  bool is_needed() const { return !absent || is_one_of; }
 };
 /// A key with words; the first is what an absent one means.
 struct RuleWords {
@@ -100,6 +104,8 @@ struct MeasureRule {
   enum class Needs { geometry, sun_path, intervals, series } needs = Needs::geometry;
   /// The period must be a year, or one of measured or typical weather.
   enum class Spans { any_period, whole_year, year_of_weather } spans = Spans::any_period;
+  /// Part of the light whose series it watches where its words have no `light`.
+  std::string light = "total";
   /// Intervals that it is taken over.
   enum class Counts { all, without_sun } counts = Counts::all;
   /// Levels from low to high that values reach from below, or stay below; none: no verdict.

@@ -15,9 +15,6 @@ namespace {
 constexpr double right_angle_deg = 90, minutes_of_day = 1440, hours_of_year = 8784, percent = 100;
 constexpr double brightest_w_m2 = 1e6, brightest_lx = 1e9;
 
-/// One of irradiance or of illuminance is needed, whichever the study has.
-bool is_threshold(const RuleKey& key) { return key.key.starts_with("above_"); }
-
 std::string range_words(const MeasureRule& rule) {
   std::string text;
   const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
@@ -26,9 +23,7 @@ std::string range_words(const MeasureRule& rule) {
                              : fmt::format("`date` ({}-{:02})", rule.day->first, rule.day->second));
   for (const RuleKey& key : rule.keys)
     add("`" + key.key + "`" +
-        (is_threshold(key)        ? " (needed)"
-         : key.absent.has_value() ? fmt::format(" ({:g})", *key.absent)
-                                  : ""));
+        (key.is_needed() ? " (needed)" : fmt::format(" ({:g})", *key.absent)));
   for (const RuleWords& key : rule.words)
     add(fmt::format("`{}`: {}", key.key, fmt::join(key.words, " \\| ")));
   return text;
@@ -78,8 +73,7 @@ const std::vector<RuleWords>& measure_word_keys() {
 std::string watched_light(const MeasureRule& rule, const MeasureParameters& parameters) {
   if (rule.needs != MeasureRule::Needs::series) return {};
   const auto word = parameters.words.find("light");
-  if (word != parameters.words.end()) return word->second;
-  return rule.word == "glint_hours" ? "mirror" : "total";
+  return word != parameters.words.end() ? word->second : rule.light;
 }
 
 std::vector<MeasureLevel> levels_of(const MeasureRule& rule, const MeasureParameters& parameters) {
