@@ -96,7 +96,11 @@ TEST(Commands, CheckAsJson) {
   const auto json = nlohmann::ordered_json::parse(ran.out);
   Lines keys, keys_of_variant;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (Lines{"variants", "batch_suns", "units"}));
+  EXPECT_EQ(keys, (Lines{"study", "folder", "variants", "batch_suns", "units"}));
+  EXPECT_EQ(json["study"], "square");
+  EXPECT_EQ(json["folder"], "results");
+  const Ran elsewhere = square.run({"check", "--json", "--output", "there"});
+  EXPECT_EQ(nlohmann::json::parse(elsewhere.out)["folder"], "there");
   ASSERT_EQ(json["variants"].size(), 2u);
   for (const auto& variant : json["variants"]) {
     keys_of_variant.clear();
