@@ -263,9 +263,9 @@ int compare(const CompareOptions& asked) {
       write_comparison_hdf5(comparison, base, variant, options.differences);
     keep_named(comparison, options.parts, path);
     if (options.format != CompareOptions::Format::csv) {
-      comparison.measures = measure_changes(base, variant, options.parts);
-      for (auto& note : notes_on_verdicts(base, variant))
-        comparison.notes.push_back(std::move(note));
+      const Verdicts verdicts = verdicts_of_both(base, variant);
+      comparison.measures = measure_changes(verdicts, options.parts);
+      for (auto& note : notes_on_verdicts(verdicts)) comparison.notes.push_back(std::move(note));
     }
     // The table and JSON have them among what they tell.
     if (options.format == CompareOptions::Format::csv)

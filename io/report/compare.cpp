@@ -9,6 +9,7 @@
 #include "geo/base/check.h"
 #include "io/base/name_pattern.h"
 #include "io/base/statistics.h"
+#include "io/report/common_groups.h"
 #include "io/report/compared.h"
 #include "io/report/compared_sensors.h"
 #include "io/report/difference.h"
@@ -94,40 +95,6 @@ Side side(const Divided& of, const std::vector<PatchMembers>& common,
   return s;
 }
 
-/// Each selection is a division of its own; nullptr: the other result has none like it.
-const PatchDivision* counterpart(const PatchDivision& of,
-                                 const std::vector<PatchDivision>& others) {
-  const auto found = std::find_if(others.begin(), others.end(), [&](const PatchDivision& other) {
-    return other.kind == of.kind && (of.kind != "selection" || other.names == of.names);
-  });
-  return found == others.end() ? nullptr : &*found;
-}
-
-/// What both have, by the divisions of either.
-struct Common {
-  std::vector<PatchMembers> base, variant;
-};
-
-Common in_common(const Divided& base, const Divided& variant, const CountedPatches& counted) {
-  const PatchOverlaps overlaps = patch_overlaps(base.result, variant.result);
-  const Tiles tiles = tiles_of(overlaps);
-  Common common;
-  for (const PatchDivision& division : variant.divisions)
-    common.variant.push_back({division.kind, {}, {}});
-  for (const PatchDivision& division : base.divisions) {
-    const PatchDivision* other = counterpart(division, variant.divisions);
-    if (!other) {
-      common.base.push_back({division.kind, {}, {}});
-      continue;
-    }
-    auto [of_base, of_variant] = common_members(overlaps, tiles, counted, division, *other);
-    common.base.push_back(std::move(of_base));
-    common.variant[static_cast<std::size_t>(other - variant.divisions.data())] =
-        std::move(of_variant);
-  }
-  return common;
-}
-
 /// Realizations that a result keeps of what is compared.
 std::size_t realization_count(const ResultReader& result, const std::string& dataset) {
   const std::string rows = realizations_of(dataset);
@@ -209,7 +176,9 @@ Comparison compare_results(const ResultReader& base, const ResultReader& variant
   const MoreGroups more{true, rules.storey_m};
   const Divided of_base{base, patch_divisions(base, more), unlike_reflections(base, variant)},
       of_variant{variant, patch_divisions(variant, more), unlike_reflections(variant, base)};
-  const Common common = in_common(of_base, of_variant, counted);
+  const PatchOverlaps overlaps = patch_overlaps(base, variant);
+  const CommonGroups common =
+      common_groups(overlaps, counted, of_base.divisions, of_variant.divisions);
   const Side b = side(of_base, common.base, counted.base, dataset),
              v = side(of_variant, common.variant, counted.variant, dataset);
   comparison.base = base.text_attribute("variant");

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "io/report/measures.h"
+#include "io/report/verdicts.h"
 #include "io/result/named_parts.h"
 #include "io/result/reader.h"
 #include "io/result/schema.h"

@@ -163,7 +163,10 @@ nlohmann::ordered_json counts_json(const Comparison& comparison) {
 }
 
 nlohmann::ordered_json measures_json(const Comparison& comparison) {
-  constexpr std::array changes{"same", "better", "worse"};
+  constexpr std::array changes{"same", "better", "worse", "only_in_base", "only_in_variant"};
+  const auto level = [](const std::string& word) {
+    return word.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(word);
+  };
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const auto& change : comparison.measures)
     list.push_back({{"measure", change.measure},
@@ -172,8 +175,8 @@ nlohmann::ordered_json measures_json(const Comparison& comparison) {
                     {"units", change.units},
                     {"base_reached", json_number(change.base_reached)},
                     {"variant_reached", json_number(change.variant_reached)},
-                    {"base_level", change.base_level},
-                    {"variant_level", change.variant_level},
+                    {"base_level", level(change.base_level)},
+                    {"variant_level", level(change.variant_level)},
                     {"change", changes[static_cast<std::size_t>(change.to)]}});
   return list;
 }

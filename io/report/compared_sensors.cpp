@@ -28,11 +28,12 @@ struct Sensors {
   std::size_t count() const { return names.size(); }
 };
 
-Sensors sensors_of(const ResultReader& result, const std::string& dataset) {
+/// What they are called, where they stand and look to.
+Sensors placed_sensors(const ResultReader& result) {
   Sensors all{sensor_names(result),
               result.doubles("sensor_position"),
               result.doubles("sensor_normal"),
-              result.doubles(dataset),
+              {},
               {},
               {}};
   const Vec3 origin = result.origin();
@@ -41,6 +42,12 @@ Sensors sensors_of(const ResultReader& result, const std::string& dataset) {
     all.position[3 * s + 1] += origin.y;
     all.position[3 * s + 2] += origin.z;
   }
+  return all;
+}
+
+Sensors sensors_of(const ResultReader& result, const std::string& dataset) {
+  Sensors all = placed_sensors(result);
+  all.load = result.doubles(dataset);
   if (result.has("sensor_light_load_reflected"))
     all.reflected = result.doubles("sensor_light_load_reflected");
   const std::string rows = realizations_of(dataset);
@@ -93,6 +100,15 @@ ComparisonRow row_of_both(const Sensors& base, const Sensors& variant, std::size
 }
 
 }  // namespace
+
+std::vector<char> sensors_in_both(const ResultReader& base, const ResultReader& variant) {
+  if (!base.has("sensor_position") || !variant.has("sensor_position")) return {};
+  const Sensors of_base = placed_sensors(base), of_variant = placed_sensors(variant);
+  std::vector<char> are_in_both;
+  for (std::size_t s = 0; s < of_base.count(); ++s)
+    are_in_both.push_back(is_in_both(of_base, of_variant, s) ? 1 : 0);
+  return are_in_both;
+}
 
 std::vector<ComparisonRow> compared_sensors(const ResultReader& base, const ResultReader& variant,
                                             const Comparison& comparison) {

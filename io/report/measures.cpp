@@ -5,22 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <tuple>
 
 #include "io/base/json_text.h"
-#include "io/base/name_pattern.h"
 #include "io/base/text.h"
 
 namespace sunload {
 
 namespace {
-
-constexpr std::size_t changes_shown = 24;  // of changes: a screen
 
 std::string levels_text(const MeasureWords& words) {
   std::string text;
@@ -58,8 +51,9 @@ std::string date_text(const Json& date) {
                      date[2].get<int>());
 }
 
-/// As a study writes them, but for what stands in the heading already.
-std::string parameters_text(const MeasureWords& words) {
+}  // namespace
+
+std::string parameters_in_words(const MeasureWords& words) {
   Json parameters = Json::parse(words.parameters, nullptr, false);
   if (!parameters.is_object()) return words.parameters;
   if (Json& date = parameters["date"]; is_date(date))
@@ -71,9 +65,23 @@ std::string parameters_text(const MeasureWords& words) {
   return value_text(parameters);
 }
 
+MeasureLikeness likeness_of(const MeasureWords& base, const MeasureWords& variant) {
+  if (base.parameters == variant.parameters) return MeasureLikeness::same;
+  const Json before = Json::parse(base.parameters, nullptr, false);
+  Json after = Json::parse(variant.parameters, nullptr, false);
+  const auto is_dated = [](const Json& of) {
+    return of.is_object() && of.contains("date") && is_date(of["date"]);
+  };
+  if (!is_dated(before) || !is_dated(after)) return MeasureLikeness::different;
+  after["date"][0] = before["date"][0];
+  return before == after ? MeasureLikeness::of_other_years : MeasureLikeness::different;
+}
+
+namespace {
+
 std::string heading(const MeasureWords& words) {
   std::string text = fmt::format("\n{}: {}\n  {}\n  {}\n", words.name, words.definition,
-                                 words.source, parameters_text(words));
+                                 words.source, parameters_in_words(words));
   if (!words.levels.empty())
     text += fmt::format("  {}, on {:g} % of the area\n", levels_text(words), words.area_percent);
   return text;
@@ -94,92 +102,6 @@ std::string row_text(const MeasureRow& row, std::size_t width) {
 bool is_judged(const MeasureRow& row) {
   return !row.level.empty() &&
          (row.kind == "facade" || row.kind == "selection" || row.kind == "sensor");
-}
-
-using Key = std::tuple<std::string, std::string, std::string>;
-Key key_of(const MeasureRow& row) { return {row.measure, row.kind, row.name}; }
-
-/// In the order of their tables.
-constexpr std::array compared_kinds{"object", "facade", "selection", "sensor"};
-
-bool has_verdict(const MeasureRow& row) {
-  return !row.level.empty() &&
-         std::find(compared_kinds.begin(), compared_kinds.end(), row.kind) != compared_kinds.end();
-}
-
-/// Names that one of two results lacks are no error here.
-bool is_chosen(const MeasureRow& row, const NamedParts& parts) {
-  if (parts.empty()) return true;
-  const auto& patterns = row.kind == "object"      ? parts.objects
-                         : row.kind == "facade"    ? parts.facades
-                         : row.kind == "selection" ? parts.selections
-                                                   : parts.sensors;
-  return std::any_of(patterns.begin(), patterns.end(),
-                     [&](const std::string& pattern) { return matches(pattern, row.name); });
-}
-
-MeasureChange::To change(const MeasureWords& words, const std::string& before,
-                         const std::string& after) {
-  if (before == after) return MeasureChange::To::same;
-  const auto rank = [&](const std::string& level) {  // "fail" is none of the levels
-    const auto found = std::find(words.levels.begin(), words.levels.end(), level);
-    return found == words.levels.end() ? -1 : found - words.levels.begin();
-  };
-  return rank(after) > rank(before) ? MeasureChange::To::better : MeasureChange::To::worse;
-}
-
-enum class Likeness { same, of_other_years, different };
-
-/// Of a measure of one name: by the same rule and limits, on the same day, or in another year.
-Likeness likeness(const MeasureWords& base, const MeasureWords& variant) {
-  if (base.parameters == variant.parameters) return Likeness::same;
-  const Json before = Json::parse(base.parameters, nullptr, false);
-  Json after = Json::parse(variant.parameters, nullptr, false);
-  const auto is_dated = [](const Json& of) {
-    return of.is_object() && of.contains("date") && is_date(of["date"]);
-  };
-  if (!is_dated(before) || !is_dated(after)) return Likeness::different;
-  after["date"][0] = before["date"][0];
-  return before == after ? Likeness::of_other_years : Likeness::different;
-}
-
-std::map<std::string, MeasureWords> words_by_name(const ResultReader& result) {
-  std::map<std::string, MeasureWords> words;
-  for (const auto& name : measure_names(result)) words[name] = measure_words(result, name);
-  return words;
-}
-
-/// `4 → 3 of 4 facades, 1 → 1 of 1 sensor`: of the kinds that the measure has.
-std::string passing_text(const std::vector<MeasureChange>& changes) {
-  std::string text;
-  for (const std::string kind : compared_kinds) {
-    std::size_t before = 0, after = 0, all = 0;
-    for (const auto& change : changes) {
-      if (change.kind != kind) continue;
-      ++all;
-      if (change.base_level != "fail") ++before;
-      if (change.variant_level != "fail") ++after;
-    }
-    if (all > 0)
-      text += fmt::format("{}{} → {} of {} {}{}", text.empty() ? "" : ", ", before, after, all,
-                          kind, all == 1 ? "" : "s");
-  }
-  return text;
-}
-
-std::string levels_changed_text(const std::vector<MeasureChange>& changes) {
-  std::vector<std::string> lines;
-  for (const auto& change : changes)
-    if (change.to != MeasureChange::To::same)
-      lines.push_back(fmt::format("  {} {}: {} → {} ({:.2f} → {:.2f} {})\n", change.kind,
-                                  change.name, change.base_level, change.variant_level,
-                                  change.base_reached, change.variant_reached,
-                                  display_units(change.units)));
-  std::string text;
-  for (std::size_t i = 0; i < std::min(lines.size(), changes_shown); ++i) text += lines[i];
-  if (lines.size() > changes_shown)
-    text += fmt::format("  … and {} more: see --json\n", lines.size() - changes_shown);
-  return text;
 }
 
 }  // namespace
@@ -256,110 +178,6 @@ std::string measures_line(const ResultReader& result) {
       for (const auto& [level, count] : levels)
         line += fmt::format(", {} {}{} {}", count, kind, count == 1 ? "" : "s", level);
     text += (text.empty() ? "" : "\n") + name + ":" + (line.empty() ? line : line.substr(1));
-  }
-  return text;
-}
-
-namespace {
-
-struct BeforeAndAfter {
-  MeasureRow before, after;
-};
-/// Rows with a verdict of the variant that the base has, too; none where one has no measures.
-std::vector<BeforeAndAfter> verdicts_of_both(const ResultReader& base,
-                                             const ResultReader& variant) {
-  std::vector<BeforeAndAfter> pairs;
-  if (measure_names(base).empty() || measure_names(variant).empty()) return pairs;
-  std::map<Key, MeasureRow> before;
-  for (const MeasureRow& row : measure_table(base, {})) before.emplace(key_of(row), row);
-  for (const MeasureRow& row : measure_table(variant, {}))
-    if (const auto found = before.find(key_of(row)); found != before.end() && has_verdict(row))
-      pairs.push_back({found->second, row});
-  return pairs;
-}
-
-}  // namespace
-
-std::vector<MeasureChange> measure_changes(const ResultReader& base, const ResultReader& variant,
-                                           const NamedParts& parts) {
-  std::vector<MeasureChange> changes;
-  const auto before_words = words_by_name(base), after_words = words_by_name(variant);
-  for (const auto& [before, row] : verdicts_of_both(base, variant)) {
-    if (!is_chosen(row, parts)) continue;
-    const MeasureWords& words = after_words.at(row.measure);
-    if (likeness(before_words.at(row.measure), words) == Likeness::different) continue;
-    changes.push_back({row.measure, words.units, row.kind, row.name, before.reached, row.reached,
-                       before.level, row.level, change(words, before.level, row.level)});
-  }
-  return changes;
-}
-
-namespace {
-
-/// Verdicts over surfaces of which the variant has more or fewer: what was built there counts.
-std::string other_areas_in_words(const ResultReader& base, const ResultReader& variant) {
-  constexpr double telling_share = 0.05;
-  constexpr std::size_t most_told = 4;
-  std::vector<std::string> others;
-  for (const auto& [before, row] : verdicts_of_both(base, variant)) {
-    const double was = before.area_m2;
-    if (!(std::abs(row.area_m2 - was) > telling_share * was)) continue;
-    others.push_back(fmt::format("{} {} of {} ({:.4g} → {:.4g} m2)", row.kind, row.name,
-                                 row.measure, was, row.area_m2));
-  }
-  if (others.empty()) return {};
-  const std::size_t count = others.size();
-  others.resize(std::min(count, most_told));
-  return fmt::format(
-      "{} verdicts are over other surfaces in the variant than in the base: {}{}; --quantity "
-      "measure_NAME compares what both have",
-      count, fmt::join(others, ", "), count > most_told ? ", …" : "");
-}
-
-}  // namespace
-
-std::vector<std::string> notes_on_verdicts(const ResultReader& base, const ResultReader& variant) {
-  std::vector<std::string> notes, of_other_years;
-  const auto before = words_by_name(base), after = words_by_name(variant);
-  for (const std::string& name : measure_names(variant)) {
-    const auto found = before.find(name);
-    if (found == before.end()) continue;
-    const MeasureWords &was = found->second, &is = after.at(name);
-    if (was.levels.empty() || is.levels.empty()) continue;
-    switch (likeness(was, is)) {
-      case Likeness::same:
-        break;
-      case Likeness::of_other_years:
-        of_other_years.push_back(name);
-        break;
-      case Likeness::different:
-        notes.push_back(fmt::format(
-            "verdicts of measure {} are not compared: it is {} ({}) in the base and {} ({}) in the "
-            "variant",
-            name, was.rule, parameters_text(was), is.rule, parameters_text(is)));
-    }
-  }
-  if (const auto words = other_areas_in_words(base, variant); !words.empty())
-    notes.push_back(words);
-  if (!of_other_years.empty())
-    notes.push_back(
-        fmt::format("measures on the same day of different years are compared, whose sun's path is "
-                    "not quite the same: {}",
-                    fmt::join(of_other_years, ", ")));
-  return notes;
-}
-
-std::string measure_changes_text(const std::vector<MeasureChange>& changes) {
-  std::vector<std::string> measures;
-  for (const auto& change : changes)
-    if (measures.empty() || measures.back() != change.measure) measures.push_back(change.measure);
-  std::string text;
-  for (const auto& measure : measures) {
-    std::vector<MeasureChange> of_measure;
-    std::copy_if(changes.begin(), changes.end(), std::back_inserter(of_measure),
-                 [&](const MeasureChange& change) { return change.measure == measure; });
-    text += "\n" + measure + ": pass in the base → in the variant: " + passing_text(of_measure) +
-            "\n" + levels_changed_text(of_measure);
   }
   return text;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What measures say, for people, and as JSON; what changes between two results.
+/// What measures say, for people, and as JSON.
 #pragma once
 
 #include <string>
@@ -15,25 +15,15 @@ std::string measure_table_text(const ResultReader& result, const std::vector<Mea
 /// Study, variant, what the measures are, and one object per row; null where a value is not known.
 std::string measure_table_json(const ResultReader& result, const std::vector<MeasureRow>& rows);
 
+/// What a measure was given, as a study writes it, but for its name, rule and day.
+std::string parameters_in_words(const MeasureWords& words);
+
+/// Of a measure of one name in two results: by the same rule and limits, on the same day, or in
+/// another year.
+enum class MeasureLikeness { same, of_other_years, different };
+MeasureLikeness likeness_of(const MeasureWords& base, const MeasureWords& variant);
+
 /// One line per measure: the whole, and how many facades and sensors reach which level.
 std::string measures_line(const ResultReader& result);
-
-/// What a rule says of a group, or of a sensor, in two results.
-struct MeasureChange {
-  std::string measure, units;  ///< units as the files state them
-  std::string kind, name;      ///< kind: object, facade, selection, sensor
-  double base_reached = 0, variant_reached = 0;
-  std::string base_level, variant_level;
-  /// Whether the variant reaches a better level than the base, or a worse one.
-  enum class To { same, better, worse } to = To::same;  ///< by levels
-};
-/// Of all that have a verdict in both results by the same rule and limits, be it in other years,
-/// and that `parts` chooses (all where it chooses nothing).
-std::vector<MeasureChange> measure_changes(const ResultReader& base, const ResultReader& variant,
-                                           const NamedParts& parts);
-/// Which of them are of other years, or are not compared as rules or limits differ.
-std::vector<std::string> notes_on_verdicts(const ResultReader& base, const ResultReader& variant);
-/// Per measure how many of each kind pass before and after, and what reaches another level.
-std::string measure_changes_text(const std::vector<MeasureChange>& changes);
 
 }  // namespace sunload

@@ -263,6 +263,29 @@ TEST(Measures, OfAYearNeedOne) {
   EXPECT_NE(longer.err.find("the period has 730 days"), std::string::npos) << longer.err;
 }
 
+TEST(Measures, OfOtherSensorsOfOneNumberAreNotCompared) {
+  const WorkFolder folder;
+  const std::string up = "{position_m: [0, -9, 1], normal: [0, 0, 1]}",
+                    down = "{position_m: [-12, -12, 0.5], normal: [0, 0, -1]}";
+  const auto result_of = [&](const std::string& name, const std::string& sensors) {
+    folder.write("square.obj", square_obj);
+    folder.write("square.yaml", square_study() +
+                                    "measures: {sun: {rule: sun_hours, date: "
+                                    "2026-03-21, least_h: 3}}\nsensors: {points: [" +
+                                    sensors + "]}\n");
+    const Ran ran = program(folder, {"run", "square.yaml", "--output", name});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return name + "/square/baseline.h5";
+  };
+  const std::string a = result_of("a", up + ", " + down), b = result_of("b", down + ", " + up);
+  const Ran others = program(folder, {"compare", a, b});
+  for (const char* part : {"0 → 0 of 0 sensors\n", "sensor 0: only in the base, pass (",
+                           "sensor 0: only in the variant, fail ("})
+    EXPECT_NE(others.out.find(part), std::string::npos) << part << others.out;
+  const Ran same = program(folder, {"compare", a, a});
+  EXPECT_NE(same.out.find("1 → 1 of 2 sensors\n"), std::string::npos) << same.out;
+}
+
 /// As with selections: a variant may remove what is measured.
 TEST(Measures, OfWhatAVariantRemovesAreTakenInTheOthers) {
   const WorkFolder folder;

@@ -226,7 +226,7 @@ std::size_t read_by_all(const std::string& path, Valid which) {
   for (const auto& [a, b] : {std::pair(&base, &result), {&result, &base}})
     commands.emplace_back([a = a, b = b] {
       Comparison comparison = compare_results(*a, *b);
-      comparison.measures = measure_changes(*a, *b, {});
+      comparison.measures = measure_changes(verdicts_of_both(*a, *b), {});
       comparison_table(comparison);
       comparison_csv(comparison);
       comparison_json(comparison);

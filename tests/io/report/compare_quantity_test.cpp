@@ -210,8 +210,8 @@ TEST(CompareQuantity, RulesOfOneNameThatDifferAreNoted) {
   const auto notes = compare_results(base, variant, {.dataset = "measure_sun"}).notes;
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_TRUE(has(notes.front(), "different rules"));
-  EXPECT_TRUE(measure_changes(base, variant, {}).empty());
-  const auto verdicts = notes_on_verdicts(base, variant);
+  EXPECT_TRUE(measure_changes(verdicts_of_both(base, variant), {}).empty());
+  const auto verdicts = notes_on_verdicts(verdicts_of_both(base, variant));
   ASSERT_EQ(verdicts.size(), 1u);
   EXPECT_TRUE(has(verdicts.front(), "verdicts of measure sun are not compared"))
       << verdicts.front();
@@ -227,13 +227,14 @@ TEST(CompareQuantity, VerdictsOfTheSameDayInOtherYearsAreComparedWithANote) {
   const ResultReader base = on("base", R"({"date": [2026, 3, 21], "least_h": 2})"),
                      next = on("next", R"({"date": [2027, 3, 21], "least_h": 2})"),
                      other = on("other", R"({"date": [2026, 3, 22], "least_h": 2})");
-  EXPECT_EQ(measure_changes(base, next, {}).size(), measure_changes(base, base, {}).size());
-  const auto notes = notes_on_verdicts(base, next);
+  EXPECT_EQ(measure_changes(verdicts_of_both(base, next), {}).size(),
+            measure_changes(verdicts_of_both(base, base), {}).size());
+  const auto notes = notes_on_verdicts(verdicts_of_both(base, next));
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_TRUE(has(notes.front(), "same day of different years")) << notes.front();
-  EXPECT_TRUE(notes_on_verdicts(base, base).empty());
-  EXPECT_TRUE(measure_changes(base, other, {}).empty());
-  const auto refused = notes_on_verdicts(base, other);
+  EXPECT_TRUE(notes_on_verdicts(verdicts_of_both(base, base)).empty());
+  EXPECT_TRUE(measure_changes(verdicts_of_both(base, other), {}).empty());
+  const auto refused = notes_on_verdicts(verdicts_of_both(base, other));
   ASSERT_EQ(refused.size(), 1u);
   EXPECT_TRUE(has(refused.front(), "2026-03-22, least_h 2) in the variant")) << refused.front();
 }
@@ -243,8 +244,8 @@ TEST(CompareQuantity, VerdictsOverOtherSurfacesAreTold) {
   SmallResult larger = measured("variant", "", 3);
   larger.houses.back().high = {12, 8, 30};
   const ResultReader variant(write_small_result(larger, "verdict_area_variant"));
-  EXPECT_TRUE(notes_on_verdicts(base, base).empty());
-  const auto notes = notes_on_verdicts(base, variant);
+  EXPECT_TRUE(notes_on_verdicts(verdicts_of_both(base, base)).empty());
+  const auto notes = notes_on_verdicts(verdicts_of_both(base, variant));
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_TRUE(has(notes.front(),
                   "5 verdicts are over other surfaces in the variant than in the "
@@ -252,29 +253,72 @@ TEST(CompareQuantity, VerdictsOverOtherSurfacesAreTold) {
       << notes.front();
 }
 
+// Numbers of facades follow their areas: a wall that grows takes its neighbour's.
+TEST(CompareQuantity, VerdictsOfOtherWallsOfOneNameArePartedAsRowsAre) {
+  const ResultReader base(write_small_result(measured("base", "", 3), "other_walls_base"));
+  SmallResult moved = measured("moved", "", 0.5);
+  for (Vec3* corner : {&moved.houses.front().low, &moved.houses.front().high})
+    corner->x -= 3;  // the walls of south and north overlap those of before
+  const ResultReader variant(write_small_result(moved, "other_walls_moved"));
+  const Verdicts verdicts = verdicts_of_both(base, variant);
+  const auto changes = measure_changes(verdicts, {{"house_1/*"}, {}, {}});
+  std::size_t alone = 0;
+  for (const auto& change : changes) {
+    const bool is_across =
+        has(change.name, "/east_") || has(change.name, "/west_");  // of where they stood
+    if (is_across) ++alone;
+    EXPECT_EQ(change.to == MeasureChange::To::only_in_base ||
+                  change.to == MeasureChange::To::only_in_variant,
+              is_across)
+        << change.name;
+  }
+  EXPECT_EQ(alone, 4u);
+  const auto text = measure_changes_text(changes);
+  for (const char* part : {"2 → 0 of 2 facades\n", "house_1/south_1: high → fail",
+                           "facade house_1/east_1: only in the base, high (3.00 h)\n",
+                           "facade house_1/east_1: only in the variant, fail (0.50 h)\n"})
+    EXPECT_TRUE(has(text, part)) << part << "\n" << text;
+  // The load table has the same rows.
+  const auto rows = compare_results(base, variant);
+  EXPECT_FALSE(quantity_row(rows, "facade", "house_1/east_1").variant_kwh_m2);
+  EXPECT_TRUE(quantity_row(rows, "facade", "house_1/south_1").variant_kwh_m2);
+  const auto notes = notes_on_verdicts(verdicts);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(has(notes.front(), "house_1/south_1 of sun (90 → 90 m2, 63 in common)"))
+      << notes.front();
+  auto comparison = compare_results(base, variant);
+  comparison.measures = changes;
+  bool is_told = false;
+  const auto list = json::parse(comparison_json(comparison))["measures"];
+  for (const auto& row : list)
+    is_told = is_told || (row["change"] == "only_in_base" && row["variant_level"].is_null() &&
+                          row["variant_reached"].is_null() && row["base_level"] == "high");
+  EXPECT_TRUE(is_told);
+}
+
 TEST(CompareQuantity, CountsOfARuleTellWhatTheyAreOf) {
   const ResultReader base(write_small_result(measured("base", "", 3), "counts_base"));
   const ResultReader variant(write_small_result(measured("other", "", 0.5), "counts_other"));
-  const auto text = measure_changes_text(measure_changes(base, variant, {}));
+  const auto text = measure_changes_text(measure_changes(verdicts_of_both(base, variant), {}));
   EXPECT_EQ(text.rfind("\nsun: pass in the base → in the variant: 2 → 1 of 2 objects, "
                        "8 → 4 of 8 facades\n  object house_1: high → fail (3.00 → 0.50 h)\n",
                        0),
             0u)
       << text;
-  const auto some =
-      measure_changes_text(measure_changes(base, variant, {{"house_1/south_*"}, {}, {}}));
+  const auto some = measure_changes_text(
+      measure_changes(verdicts_of_both(base, variant), {{"house_1/south_*"}, {}, {}}));
   EXPECT_EQ(some,
             "\nsun: pass in the base → in the variant: 1 → 0 of 1 facade\n"
             "  facade house_1/south_1: high → fail (3.00 → 0.50 h)\n");
   // What only the variant has is not judged twice, and no error.
-  EXPECT_TRUE(measure_changes(base, variant, {{"tower/*"}, {}, {}}).empty());
+  EXPECT_TRUE(measure_changes(verdicts_of_both(base, variant), {{"tower/*"}, {}, {}}).empty());
 
   SmallResult of_ground;
   of_ground.measure = [](const std::string& object, Vec3) {
     return object == "ground" ? 2 : not_measured;
   };
   const ResultReader ground(write_small_result(of_ground, "counts_ground"));
-  EXPECT_EQ(measure_changes_text(measure_changes(ground, ground, {})),
+  EXPECT_EQ(measure_changes_text(measure_changes(verdicts_of_both(ground, ground), {})),
             "\nsun: pass in the base → in the variant: 1 → 1 of 1 object\n");
 }
 
@@ -282,14 +326,15 @@ TEST(CompareQuantity, JsonListsWhoPassesBeforeAndAfter) {
   const ResultReader base(write_small_result(measured("base", "", 0.5), "json_base"));
   const ResultReader variant(write_small_result(measured("other", "", 3), "json_other"));
   auto comparison = compare_results(base, variant);
-  comparison.measures = measure_changes(base, variant, {});
+  comparison.measures = measure_changes(verdicts_of_both(base, variant), {});
   const auto list = json::parse(comparison_json(comparison))["measures"];
   ASSERT_EQ(list.size(), 10u);  // 2 objects, 8 facades
   EXPECT_EQ(list[0], json::parse(R"({"measure": "sun", "group": "object", "name": "house_1",
     "units": "h", "base_reached": 0.5, "variant_reached": 3.0, "base_level": "fail",
     "variant_level": "high", "change": "better"})"));
   EXPECT_EQ(list[1]["change"], "same");
-  EXPECT_EQ(measure_changes(variant, base, {}).front().to, MeasureChange::To::worse);
+  EXPECT_EQ(measure_changes(verdicts_of_both(variant, base), {}).front().to,
+            MeasureChange::To::worse);
 }
 
 TEST(CompareQuantity, FilesHoldTheDifferencesOfItsPatches) {
