@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "geo/base/units.h"
 #include "geo/sun/resample.h"
@@ -374,6 +375,8 @@ void StudyWeather::say_closure(const std::vector<DatedWeather>& used, const SunP
         "{:.1f} W/m2); are stamp and time zone of the weather right?",
         std::abs(c.best_shift_s) / seconds_per_minute, c.best_shift_s > 0 ? "later" : "earlier",
         c.best_rms, c.rms));
+  if (auto lacking = lacking_light_warning(c, file_.path); !lacking.empty())
+    warnings_.push_back(std::move(lacking));
 }
 
 void StudyWeather::say_doubts(const std::vector<DatedWeather>& used, const SunPath& path) {

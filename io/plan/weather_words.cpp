@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "geo/base/check.h"
+
 namespace sunload {
 
 namespace {
@@ -87,6 +89,29 @@ std::string missing_words(const WeatherValues& values, WeatherSource source) {
   for (const WeatherQuantity quantity : needed(source))
     if (!(values.*quantity).has_value()) names.push_back(quantity_name(quantity));
   return fmt::format("{} {}", fmt::join(names, " and "), names.size() == 1 ? "is" : "are");
+}
+
+std::string lacking_light_warning(const Closure& closure, const std::string& path) {
+  constexpr double telling_share = 0.1;   // of GHI
+  constexpr double instruments_w_m2 = 5;  // BSRN, for GHI
+  constexpr double rounding = 1e-9;
+  const double lacking = -closure.bias, all = closure.mean_ghi;
+  if (!(lacking > std::max(telling_share * all, instruments_w_m2))) return {};
+  constexpr auto* hint =
+      "if DNI and DHI were not measured leave their columns out, or their values empty (EPW: "
+      "9999), "
+      "so that light.decomposition divides GHI; or choose another file";
+  if (lacking >= (1 - rounding) * all)
+    throw InputError({path},
+                     fmt::format("DNI and DHI are 0 in all of {} sunlit records, where GHI is "
+                                 "{:.4g} W/m2 in the mean",
+                                 closure.intervals, all),
+                     "light is made from DNI and DHI: there would be none", hint);
+  return fmt::format(
+      "weather: DNI sin(elevation) + DHI is {:.3g} % less than GHI over {} sunlit records ({:.4g} "
+      "instead of {:.4g} W/m2 in the mean): light is made from DNI and DHI, sun and sky bring less "
+      "than the ground is said to get; are values that were not measured written as 0? {}",
+      100 * lacking / all, closure.intervals, all - lacking, all, hint);
 }
 
 WeatherSayings doubt_words(const WeatherDoubts& doubts, const std::string& path) {

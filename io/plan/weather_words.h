@@ -23,6 +23,9 @@ std::string missing_words(const WeatherValues& values, WeatherSource source);
 struct WeatherSayings {
   std::vector<std::string> notes, warnings;
 };
+/// Warns where sun and sky bring much less than the ground receives; empty where they do not.
+/// Throws InputError where they bring nothing at all. `path`: of the file.
+std::string lacking_light_warning(const Closure& closure, const std::string& path);
 /// With amounts; `path`: of the file.
 WeatherSayings doubt_words(const WeatherDoubts& doubts, const std::string& path);
 

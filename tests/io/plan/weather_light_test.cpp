@@ -532,6 +532,28 @@ TEST(WeatherLight, QuantitiesThatContradictEachOtherAreToldWithTheirAmount) {
   EXPECT_TRUE(tells(little.weather, "24 records have DHI above GHI: 2.4 Wh/m2 (0.05 % of GHI)"));
 }
 
+TEST(WeatherLight, SunAndSkyThatBringLessThanTheGroundGetsAreWarnedOf) {
+  const auto day = [](const std::string& in_the_morning, const std::string& after) {
+    std::string text = roof + "time,ghi,dni,dhi\n";
+    for (int hour = 1; hour <= 24; ++hour)
+      text += fmt::format("2026-06-21T{:02}:00,{}\n", hour, hour <= 12 ? in_the_morning : after);
+    write_text("day.csv", text);
+    return weather_study("", "year_of: weather", "weather: day.csv, stamp: end");
+  };
+  EXPECT_TRUE(tells(series_of(day("100,0,0", "100,0,100")).notes,
+                    " % less than GHI over 18 sunlit records"));
+  EXPECT_TRUE(series_of(day("100,0,95", "100,0,95")).notes.empty());
+  EXPECT_TRUE(series_of(day("100,0,105", "100,0,105")).notes.empty());
+  // What instruments are off by is a large share of little.
+  EXPECT_TRUE(series_of(day("4,0,0", "4,0,2")).notes.empty());
+  const auto none = refused(day("100,0,0", "100,0,0"));
+  EXPECT_NE(none.find("day.csv: DNI and DHI are 0 in all of 18 sunlit records, where GHI is 100 "
+                      "W/m2 in the mean (light is made from DNI and DHI: there would be none)"),
+            none.npos)
+      << none;
+  EXPECT_NE(none.find("light.decomposition divides GHI"), none.npos) << none;
+}
+
 TEST(WeatherLight, HoursWithoutAnyLightBelowAHighSunAreWarnedOf) {
   const auto series = series_of_day("dni,dhi", "0,0");
   EXPECT_TRUE(tells(series.notes, "records have no light at all with the sun above 10 degrees"));
