@@ -18,6 +18,7 @@
 #include "io/plan/scene_cut.h"
 #include "io/plan/scene_doubts.h"
 #include "io/plan/scene_edit.h"
+#include "io/plan/scene_gaps.h"
 #include "io/plan/scene_land.h"
 #include "io/plan/scene_models.h"
 #include "io/plan/true_lengths.h"
@@ -209,41 +210,6 @@ ParallelSources read_parallel_sources(const Study& study, Vec3 origin, BuiltScen
   return sources;
 }
 
-/// The first of those above the ground by more than `floating_m`, of `count` in all.
-std::string names_of(const std::vector<FootGap>& gaps, std::size_t count) {
-  constexpr std::size_t most = 10;
-  std::string names;
-  std::size_t named = 0;
-  for (const FootGap& gap : gaps) {
-    if (named == most || !(gap.gap_m > floating_m)) continue;
-    names += fmt::format("{}{} by {:.2f} m", named++ > 0 ? ", " : "", gap.object, gap.gap_m);
-  }
-  return names + (count > named ? ", …" : "");
-}
-
-/// Feet that the ground does not reach, and walls that were drawn far to reach it.
-void warn_of_gaps(const Study& study, BuiltScene& built) {
-  if (!built.report.ground) return;
-  const GroundReport& ground = *built.report.ground;
-  if (ground.floating > 0)
-    built.warnings.push_back(message(
-        study.scene.where,
-        fmt::format("{} of {} bodies stand more than {} m above the ground ({})", ground.floating,
-                    ground.standing, floating_m, names_of(ground.worst, ground.floating)),
-        "sun and sky pass below their walls",
-        ground.surface == GroundSurface::level
-            ? "scene.ground: {surface: feet} goes through the feet"
-            : "the terrain of the model lies there"));
-  if (!ground.drawn_far.empty())
-    built.warnings.push_back(message(
-        study.scene.where,
-        fmt::format("walls of {} bodies are drawn down to the terrain by more than {} m ({})",
-                    ground.drawn_far.size(), floating_m,
-                    names_of(ground.drawn_far, ground.drawn_far.size())),
-        "right for houses; under a bridge or a sign no light passes",
-        "scene.ground: none leaves walls as they are"));
-}
-
 }  // namespace
 
 BuiltScene scene_before_materials(const Study& study) {
@@ -268,9 +234,9 @@ BuiltScene scene_before_materials(const Study& study) {
   built.report = std::move(prepared.report);
   built.warnings.insert(built.warnings.end(), built.report.warnings.begin(),
                         built.report.warnings.end());
-  warn_of_gaps(study, built);
   built.scene.mesh = std::move(prepared.mesh);
   built.bodies = std::move(prepared.bodies);
+  warn_of_gaps(study, model.is_city_format ? SceneKind::city : SceneKind::plain, built);
   if (const auto lying = on_its_side_warning(study, built, model.is_city_format); !lying.empty())
     built.warnings.push_back(lying);
   if (const auto lone = lone_piece_warning(study, built); !lone.empty())
