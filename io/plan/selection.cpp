@@ -19,9 +19,10 @@ namespace sunload {
 
 namespace {
 
-constexpr double level_deg = 1;        // flatter surfaces of files look nowhere: they are not true
-constexpr double rounding_deg = 1e-6;  // of azimuths: walls on the rim of a range are in it
-constexpr double rounding_m = 1e-6;    // the same of heights
+constexpr double level_deg = 1;  // flatter surfaces of files look nowhere: they are not true
+// Walls on the rim of a range are in it, as files round them: to millimetres, over some metres.
+constexpr double rounding_deg = 0.01;
+constexpr double rounding_m = 1e-3;  // the same of heights
 
 [[noreturn]] void refuse(const std::string& subject, const Where& where, const std::string& what,
                          const std::string& why, const std::string& hint) {
@@ -30,7 +31,8 @@ constexpr double rounding_m = 1e-6;    // the same of heights
 
 bool lies_between(double azimuth_deg, const std::array<double, 2>& ends) {
   const double width = wrapped_deg(ends[1] - ends[0]);
-  return width == 0 || wrapped_deg(azimuth_deg - ends[0] + rounding_deg) < width;
+  const double rounding = std::min(rounding_deg, width / 4);  // of narrow ranges less
+  return width == 0 || wrapped_deg(azimuth_deg - ends[0] + rounding) < width;
 }
 
 SceneObjects objects_of(const Mesh& mesh, std::vector<ObjectExtent> extents) {
@@ -200,8 +202,10 @@ bool Selector::holds(const Sight& sight, const SceneObjects& all,
       return false;
   }
   if (!wanted_.height_m) return true;
-  const double height = part.middle.z - all.extents[part.object.index()].box.low.z + rounding_m;
-  return height >= (*wanted_.height_m)[0] && height < (*wanted_.height_m)[1];
+  const auto [low, high] = *wanted_.height_m;
+  const double height = part.middle.z - all.extents[part.object.index()].box.low.z +
+                        std::min(rounding_m, (high - low) / 4);
+  return height >= low && height < high;
 }
 
 std::string subject_of(const NamedSelection& selection) { return "selections." + selection.name; }

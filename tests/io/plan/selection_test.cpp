@@ -3,6 +3,7 @@
 /// Selections: what they choose of objects, faces and patches.
 #include "io/plan/selection.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -74,6 +75,18 @@ TEST_F(Selections, RangesTileTheCircle) {
                             "[225, 270]", "[270, 315]", "[315, 360]"})
     sum += area(std::string("surface: wall, azimuth_deg: ") + range);
   EXPECT_NEAR(sum, 640, rounding_m2) << "walls on the rim of two ranges are in one of them";
+}
+
+// As of a model on a map, whose files have six decimals of metres or fewer.
+TEST_F(Selections, WallsOnTheRimAreInARangeHoweverTheyAreRounded) {
+  for (const double off_deg : {-0.005, -1e-5, 0.0, 1e-5, 0.005}) {
+    const std::string north = fmt::format(", north_deg: {}", 45 + off_deg);
+    EXPECT_NEAR(area("object: one, surface: wall, azimuth_deg: [135, 225]", north), 80, rounding_m2)
+        << off_deg;
+    EXPECT_NEAR(area("object: one, surface: wall, azimuth_deg: [45, 315]", north), 240, rounding_m2)
+        << off_deg;
+  }
+  EXPECT_NEAR(area("object: one, surface: wall, azimuth_deg: [179.99, 180.01]"), 80, rounding_m2);
 }
 
 TEST_F(Selections, AzimuthsAreThoseOfTheEarth) {
