@@ -37,7 +37,52 @@ const Names storeys{"building:levels", "building_levels", "storeys",     "storie
                     "num_floors",      "num_story",       "num_stories", "floors",  "etages",
                     "geschosse",       "podlazi",         "plantas",     "piani"};
 const Names bases{"base_height", "base_m", "ground_height", "ground_elevation"};
+// Of OpenStreetMap: where a part of a building begins above the ground.
+const Names lower_ends{"min_height"}, lower_levels{"building:min_level", "min_level"};
 const Names names{"id", "gml_id", "osm_id", "fid", "egid", "ref", "name"};
+
+/// A number of a column and what is written behind it.
+struct Written {
+  double value = 0;
+  std::string unit;
+};
+
+bool is_foot(const std::string& unit) { return unit == "ft" || unit == "'"; }
+
+/// With a point in the place of a comma that can be nothing but a decimal one: `12,5`, not `1,500`.
+std::string with_decimal_point(std::string text) {
+  constexpr std::size_t of_thousands = 3;
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos || comma == 0 ||
+      text.find_first_of(".,", comma + 1) != text.npos || text.find('.') < comma)
+    return text;
+  const std::size_t end = std::min(text.find_first_not_of("0123456789", comma + 1), text.size());
+  const std::size_t digits = end - comma - 1;
+  if (digits > 0 && digits != of_thousands) text[comma] = '.';
+  return text;
+}
+
+/// Inches behind feet, `6"`.
+std::optional<double> inches_in(const std::string& text) {
+  char* end = nullptr;
+  const double inches = std::strtod(text.c_str(), &end);
+  const bool are_inches = end != text.c_str() && trimmed(end) == "\"" && inches >= 0;
+  return are_inches ? std::optional(inches) : std::nullopt;
+}
+
+/// `12`, `12.5 m`, `40 ft`, `39'6"`.
+std::optional<Written> parsed(const std::string& text) {
+  constexpr double inches_per_foot = 12;
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || !std::isfinite(value)) return {};
+  const std::string unit(trimmed(end));
+  if (unit.empty() || unit == "m" || is_foot(unit)) return Written{value, unit};
+  if (unit.front() != '\'') return {};
+  const auto inches = inches_in(unit.substr(1));
+  if (!inches) return {};
+  return Written{value + *inches / inches_per_foot, "'"};
+}
 
 struct DestroyFeature {
   void operator()(void* feature) const { gdal::OGR_F_Destroy(feature); }
@@ -130,12 +175,18 @@ class FootprintReader {
                          : fmt::format("its columns: {}", fmt::join(all, ", ")));
       return static_cast<int>(found - all.begin());
     }
+    const int found = usual_column(usual);
+    if (found >= 0)
+      notes_.say(fmt::format("{} of footprints from column {}", what,
+                             all[static_cast<std::size_t>(found)]));
+    return found;
+  }
+  /// The first of these that there is; -1: none.
+  int usual_column(const Names& usual) const {
+    const auto all = columns();
     for (const auto name : usual)
       for (std::size_t k = 0; k < all.size(); ++k)
-        if (lower_case(all[k]) == name) {
-          notes_.say(fmt::format("{} of footprints from column {}", what, all[k]));
-          return static_cast<int>(k);
-        }
+        if (lower_case(all[k]) == name) return static_cast<int>(k);
     return -1;
   }
 
@@ -144,6 +195,8 @@ class FootprintReader {
     storeys_ = column(rules_.storeys, storeys, "storeys");
     base_ = column(rules_.base, rules_.terrain.empty() ? bases : Names{}, "feet");
     name_ = column(rules_.name, names, "names");
+    lower_end_ = usual_column(lower_ends);
+    lower_level_ = usual_column(lower_levels);
     if (height_ >= 0 || storeys_ >= 0 || rules_.default_height_m) return;
     const auto all = columns();
     fail("no column of heights is known",
@@ -235,31 +288,25 @@ class FootprintReader {
 
   // ---- features
 
-  /// A number of a column and what is written behind it. Texts that are no number are counted.
-  struct Written {
-    double value = 0;
-    std::string unit;
-  };
-  std::optional<Written> written(OGRFeatureH feature, int column) {
+  /// Storeys with a comma may be a list.
+  enum class Commas { decimal, unknown };
+  /// Texts that are no number are counted.
+  std::optional<Written> written(OGRFeatureH feature, int column, Commas commas) {
     if (column < 0 || gdal::OGR_F_IsFieldSetAndNotNull(feature, column) == 0) return {};
     const std::string text(trimmed(gdal::OGR_F_GetFieldAsString(feature, column)));
     if (text.empty()) return {};
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    const std::string unit(trimmed(end));
-    const bool is_known = unit.empty() || unit == "m" || is_foot(unit);
-    if (end != text.c_str() && is_known && std::isfinite(value)) return Written{value, unit};
-    count_unread(text);
-    return {};
+    auto found = parsed(commas == Commas::decimal ? with_decimal_point(text) : text);
+    if (!found) count_unread(text);
+    return found;
   }
   void count_unread(const std::string& text) {
     constexpr std::size_t enough = 20;
-    if (unread_++ == 0) first_unread_ = text.substr(0, enough);
+    last_unread_ = text.substr(0, enough);
+    if (unread_++ == 0) first_unread_ = last_unread_;
   }
-  static bool is_foot(const std::string& unit) { return unit == "ft" || unit == "'"; }
 
   std::optional<double> number(OGRFeatureH feature, int column) {
-    const auto found = written(feature, column);
+    const auto found = written(feature, column, Commas::unknown);
     if (!found || found->unit.empty()) return found ? std::optional(found->value) : std::nullopt;
     count_unread(fmt::format("{:g} {}", found->value, found->unit));
     return {};
@@ -268,7 +315,7 @@ class FootprintReader {
   /// In the unit that stands behind it, as OpenStreetMap has it (`12 m`, `40'`), or in the file's.
   std::optional<double> length_m(OGRFeatureH feature, int column) {
     constexpr double international_foot_m = 0.3048;
-    const auto found = written(feature, column);
+    const auto found = written(feature, column, Commas::decimal);
     if (!found) return {};
     return found->value * (found->unit.empty()    ? unit_m_
                            : is_foot(found->unit) ? international_foot_m
@@ -303,17 +350,34 @@ class FootprintReader {
     add_areas(geometry, areas, lowest_z);
     if (areas.empty()) return notes_.count("features that are no polygons are left out");
     const std::string name = unique_(title(feature));
+    last_unread_.clear();
     const auto height = height_m(feature);
-    if (!height) {
-      if (without_height_++ < most_named) named_ += (named_.empty() ? "" : ", ") + name;
-      return;
-    }
+    if (!height) return note_without_height(name);
+    note_lower_end(feature, name);
     if (!(*height <= highest_m))
       fail(fmt::format("{} is {:g} m high", name, *height), "no building is",
            "is the column one of heights above the ground?");
     const double foot = foot_m(feature, areas, lowest_z, name);
     add_prism(model_, areas, foot, foot + *height,
               {.name = name, .kind = "Building", .material = {}});
+  }
+
+  void note_without_height(const std::string& name) {
+    is_any_unread_ |= !last_unread_.empty();
+    if (without_height_++ >= most_named) return;
+    named_ += (named_.empty() ? "" : ", ") + name;
+    if (!last_unread_.empty()) named_ += fmt::format(": '{}'", last_unread_);
+  }
+
+  /// Of a part that begins above the ground, which is drawn from its foot on.
+  void note_lower_end(OGRFeatureH feature, const std::string& name) {
+    auto begins_m = length_m(feature, lower_end_);
+    if (!begins_m)
+      if (const auto levels = number(feature, lower_level_)) begins_m = *levels * rules_.storey_m;
+    if (!begins_m || !(*begins_m > 0)) return;
+    if (raised_++ < most_named)
+      raised_named_ +=
+          fmt::format("{}{} at {:g} m", raised_named_.empty() ? "" : ", ", name, *begins_m);
   }
 
   /// Of a polygon, or of several.
@@ -388,7 +452,8 @@ class FootprintReader {
     fail(fmt::format("{} of {} footprints have no height above 0 ({}{})", without_height_,
                      without_height_ + model_.object_names.size(), named_,
                      without_height_ > most_named ? ", …" : ""),
-         "neither a height nor storeys above 0 are written there",
+         is_any_unread_ ? "what is written there is no number, nor one with m, ft or '"
+                        : "neither a height nor storeys above 0 are written there",
          "footprints: {default_height_m: …} gives them one");
   }
 
@@ -402,6 +467,15 @@ class FootprintReader {
           fmt::format("{} values of heights, storeys or feet are no numbers, such as '{}': "
                       "they count as not written",
                       unread_, first_unread_));
+    if (raised_ > 0)
+      model_.warnings.push_back(message(
+          {path_},
+          fmt::format("{} of {} footprints begin above the ground by min_height or "
+                      "building:min_level, and are drawn from their feet on ({}{})",
+                      raised_, model_.object_names.size(), raised_named_,
+                      raised_ > most_named ? ", …" : ""),
+          "walls stand where passages and overhangs are open",
+          "a step of scene.edit removes them, another adds each with footprint: {base_m: …}"));
     if (storeys_ >= 0) notes_.say(fmt::format("a storey is {:g} m high", rules_.storey_m));
     put_notes(notes_, model_);
   }
@@ -416,14 +490,18 @@ class FootprintReader {
   bool is_in_degrees_ = false;
   std::optional<OGREnvelope> extent_;                       ///< once it is asked for
   int height_ = -1, storeys_ = -1, base_ = -1, name_ = -1;  ///< columns
+  int lower_end_ = -1, lower_level_ = -1;                   ///< the same
   std::optional<MapFromDegrees> to_map_;                    ///< none: on the map already
   std::optional<Raster> terrain_;
   PolygonModel model_;
   NoteCounter notes_;
   UniqueNames unique_;
   std::size_t without_height_ = 0, corners_ = 0, of_default_height_ = 0, unread_ = 0;
-  std::string first_unread_;
-  std::string named_;  ///< the first of those without height
+  std::size_t raised_ = 0;      ///< that begin above the ground
+  bool is_any_unread_ = false;  ///< of those without height
+  std::string first_unread_, last_unread_;
+  std::string named_;         ///< the first of those without height
+  std::string raised_named_;  ///< the first of those that begin above the ground
 };
 
 }  // namespace

@@ -223,7 +223,7 @@ TEST(Footprints, HeightsThatAreNoNumbersAreTold) {
   rules.footprints.default_height_m = 6;
   const auto model =
       read_text("plan.geojson",
-                plan({feature(R"("height": "12,5")", "[" + square(500000, 5500000, 5) + "]"),
+                plan({feature(R"("height": "~15")", "[" + square(500000, 5500000, 5) + "]"),
                       feature(R"("height": "40 ft")", "[" + square(500010, 5500000, 5) + "]"),
                       feature(R"("height": "30'")", "[" + square(500020, 5500000, 5) + "]"),
                       feature(R"("height": 0)", "[" + square(500030, 5500000, 5) + "]"),
@@ -233,8 +233,56 @@ TEST(Footprints, HeightsThatAreNoNumbersAreTold) {
   for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(extent(model, k).second, heights[k], 1e-9) << k;
   EXPECT_TRUE(has_note(model, "2 of 5 footprints have no height above 0 and are 6 m high"));
   EXPECT_TRUE(has_note(model,
-                       "1 values of heights, storeys or feet are no numbers, such as '12,5': they "
+                       "1 values of heights, storeys or feet are no numbers, such as '~15': they "
                        "count as not written"));
+}
+
+TEST(Footprints, HeightsMayHaveADecimalCommaOrInches) {
+  const std::string ring = "[" + square(500000, 5500000, 5) + "]";
+  const auto high = [&](const std::string& height) {
+    SceneFileRules rules;
+    rules.footprints.default_height_m = 6;
+    return extent(read_text("plan.geojson", plan({feature("\"height\": \"" + height + "\"", ring)}),
+                            rules),
+                  0)
+        .second;
+  };
+  EXPECT_NEAR(high("12,5"), 12.5, 1e-9);
+  EXPECT_NEAR(high("12,25 m"), 12.25, 1e-9);
+  EXPECT_NEAR(high(R"(39'6\")"), 39.5 * 0.3048, 1e-9);
+  for (const char* unclear : {"1,500", "1,2,3", "1.000,5", "12,", ",5", "39'6", "12,5;13"})
+    EXPECT_NEAR(high(unclear), 6, 1e-9) << unclear;
+}
+
+TEST(Footprints, ThatAreRefusedShowWhatIsWritten) {
+  const std::string ring = "[" + square(0, 0, 9) + "]";
+  const std::string refused =
+      refusal("plan.geojson",
+              plan({feature(R"("id": "a", "height": "~15", "levels": "4;5")", ring),
+                    feature(R"("id": "b", "height": null, "levels": "3,4")", ring),
+                    feature(R"("id": "c", "height": 0)", ring)}),
+              {});
+  EXPECT_NE(refused.find("3 of 3 footprints have no height above 0 (a: '4;5', b: '3,4', c) (what "
+                         "is written there is no number, nor one with m, ft or ')"),
+            std::string::npos)
+      << refused;
+}
+
+TEST(Footprints, ThatBeginAboveTheGroundAreToldOf) {
+  const std::string ring = "[" + square(500000, 5500000, 5) + "]";
+  const auto model = read_text(
+      "plan.geojson",
+      plan({feature(R"("name": "a", "height": 20, "min_height": "6", "building:min_level": 1)",
+                    ring),
+            feature(R"("name": "b", "height": 20, "building:min_level": "2")", ring),
+            feature(R"("name": "c", "height": 20, "min_height": 0)", ring)}));
+  ASSERT_EQ(model.warnings.size(), 1u);
+  EXPECT_NE(model.warnings.front().find(
+                "2 of 3 footprints begin above the ground by min_height or building:min_level, and "
+                "are drawn from their feet on (a at 6 m, b at 6 m)"),
+            std::string::npos)
+      << model.warnings.front();
+  EXPECT_EQ(extent(model, 0), (std::pair{0.0, 20.0}));
 }
 
 TEST(Footprints, OfNewYorkAreNotTakenForMetres) {
