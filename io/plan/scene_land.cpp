@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geo/mesh/delaunay.h"
+#include "geo/mesh/slope.h"
 #include "io/base/name_pattern.h"
 #include "io/plan/selection.h"
 
@@ -93,9 +94,57 @@ void call_land(const SceneStudy& scene, PolygonModel& model) {
     turn_upward(is_land, model);
 }
 
+namespace {
+
+/// Ground of each object [m2].
+struct GroundAreas {
+  std::vector<double> all, upright;
+  explicit GroundAreas(const Mesh& mesh)
+      : all(mesh.object_names.size(), 0), upright(mesh.object_names.size(), 0) {
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (mesh.triangle_surface[t] != Surface::ground) continue;
+      const std::size_t object = mesh.triangle_object[t].index();
+      all[object] += mesh.area_m2(t);
+      if (slope_of(mesh, t) == Slope::upright) upright[object] += mesh.area_m2(t);
+    }
+  }
+};
+
+/// Walls of quays and terraces are less.
+bool may_hold_houses(const GroundAreas& areas, std::size_t object) {
+  constexpr double telling_share = 0.05, telling_m2 = 10;
+  return areas.upright[object] > std::max(telling_share * areas.all[object], telling_m2);
+}
+
+/// Objects that hold the land and houses on it: walls are ground then.
+void warn_of_upright_land(const SceneStudy& scene, const Mesh& mesh,
+                          std::vector<std::string>& warnings) {
+  const GroundAreas areas(mesh);
+  for (const auto& [pattern, where] : scene.land) {
+    const ChosenObjects named = objects_named(pattern, mesh);
+    double upright_m2 = 0;
+    std::string first;
+    for (std::size_t o = 0; o < named.size(); ++o) {
+      if (!named[o] || !may_hold_houses(areas, o)) continue;
+      upright_m2 += areas.upright[o];
+      if (first.empty()) first = mesh.object_names[o];
+    }
+    if (upright_m2 == 0) continue;
+    warnings.push_back(message(
+        where,
+        fmt::format("scene.land: {:.4g} m2 of '{}' are upright (first in {})", upright_m2, pattern,
+                    first),
+        "all of it is ground: it has no walls and no facades",
+        "does it hold houses, too? Name the land's sheet alone, or make it an object of its own"));
+  }
+}
+
+}  // namespace
+
 void warn_of_no_land(const SceneStudy& scene, const Mesh& mesh,
                      std::vector<std::string>& warnings) {
   if (scene.land.empty()) return;
+  warn_of_upright_land(scene, mesh, warnings);
   std::vector<std::uint8_t> has_ground(mesh.object_names.size(), 0);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.triangle_surface[t] == Surface::ground)

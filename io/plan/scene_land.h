@@ -18,7 +18,7 @@ namespace sunload {
 void call_land(const SceneStudy& scene, PolygonModel& model);
 
 /// Warns of names of `scene.land` whose objects have become no ground: closed bodies, and what
-/// looks down.
+/// looks down; and of those with upright faces as of houses, which have become ground.
 void warn_of_no_land(const SceneStudy& scene, const Mesh& mesh, std::vector<std::string>& warnings);
 
 }  // namespace sunload

@@ -104,6 +104,25 @@ TEST(SceneLand, ThatIsNoneIsTold) {
   }));
 }
 
+/// Where one object holds houses and the land about them all of its walls are ground.
+TEST(SceneLand, ThatHoldsHousesIsTold) {
+  const auto told = [](const std::string& height) {
+    const BuiltScene built = scene_of(
+        WorkFolder(),
+        "o model\nv -20 -20 0\nv 20 -20 0\nv 20 20 0\nv -20 20 0\nv -5 -5 0\nv 5 -5 0\nv 5 5 0\n"
+        "v -5 5 0\nv -5 -5 " +
+            height + "\nv 5 -5 " + height + "\nv 5 5 " + height + "\nv -5 5 " + height +
+            "\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 9 10 11 12\nf 5 6 10 9\n"
+            "f 6 7 11 10\nf 7 8 12 11\nf 8 5 9 12\n",
+        ", land: [model]");
+    return std::ranges::any_of(built.warnings, [](const std::string& warning) {
+      return warning.find("240 m2 of 'model' are upright (first in model)") != warning.npos;
+    });
+  };
+  EXPECT_TRUE(told("6"));
+  EXPECT_FALSE(told("0.4"));  // a terrace
+}
+
 TEST(SceneLand, CoversWhatLiesBelow) {
   const WorkFolder folder;
   constexpr double above_m2 = 4 * 10 * 6, below_m2 = 4 * 10 * 3, rounding_m2 = 1e-6;
