@@ -3,9 +3,12 @@
 #include "io/command/commands.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <iostream>
+#include <set>
 
 #include "geo/base/check.h"
 #include "io/base/bands.h"
@@ -26,6 +29,7 @@
 #include "io/scene/builtin.h"
 #include "io/scene/cityjson/write.h"
 #include "io/scene/mesh_files/obj_write.h"
+#include "io/study/material_table.h"
 #include "io/study/named_files.h"
 
 namespace sunload {
@@ -174,6 +178,29 @@ void expect_scene_not_read(const std::string& path, const std::vector<std::strin
   if (path.ends_with(".obj")) expect_not_read(obj_library(path), inputs, path);
 }
 
+/// Of materials that the study or the table defines a model's file keeps the names.
+void warn_of_names_alone(const SceneStudy& scene, const PolygonModel& model,
+                         const std::string& path) {
+  std::set<std::string> all, tabled;
+  for (const FileMaterial& material : model.materials) {
+    if (!material.is_reference) continue;
+    all.insert(material.name);
+    const bool is_of_study = std::ranges::any_of(
+        scene.materials, [&](const MaterialStudy& of) { return of.name == material.name; });
+    if (!is_of_study) tabled.insert(material.name + ": {}");
+  }
+  if (all.empty()) return;
+  tell_warnings({message(
+      {path},
+      fmt::format("of {} it has the names alone, not what they reflect and let pass, nor two sides",
+                  fmt::join(all, ", ")),
+      "a study of the file takes them for grey and opaque",
+      tabled.empty()
+          ? std::string("write them into its scene.materials as in this study")
+          : fmt::format("scene.materials: {{{}}} takes the table's{}", fmt::join(tabled, ", "),
+                        tabled.size() < all.size() ? "; others as in this study" : ""))});
+}
+
 /// The model of a study's variant, with its steps done.
 int write_edited(const BuiltinOptions& options) {
   if (!options.parameters.empty())
@@ -190,6 +217,7 @@ int write_edited(const BuiltinOptions& options) {
   tell_warnings(model.warnings);
   for (const auto& note : model.notes) tell("note: " + note);
   write_scene(model, options.path, study.scene.repair, crs_unit_m(study.scene, model.crs));
+  warn_of_names_alone(study.scene, model, options.path);
   return exit_code::done;
 }
 

@@ -78,7 +78,8 @@ class MaterialAssigner {
         scene_(scene),
         warnings_(warnings),
         emission_(emission_per_area(study.scene, scene.mesh)),
-        made_of_file_(scene.mesh.file_materials.size() + 1, nullptr) {
+        made_of_file_(scene.mesh.file_materials.size() + 1, nullptr),
+        defaulted_of_file_m2_(scene.mesh.file_materials.size(), 0) {
     for (const auto& m : scene.mesh.file_materials)
       if (!m.name.empty() && !m.is_reference) of_files_.insert({m.name, of_file(m)});
     for (const auto& m : study.scene.materials) by_name_[m.name] = completed(m);
@@ -106,6 +107,7 @@ class MaterialAssigner {
     problems_.throw_if_any();
     for (std::size_t r = 0; r < used_.size(); ++r) warn_of_rule(study_.scene.assign[r], used_[r]);
     warn_of_defaults();
+    warn_of_tabled_names();
     warn_of_scaled();
     warn_of_dark_lamps();
     return std::move(used_);
@@ -366,9 +368,33 @@ class MaterialAssigner {
   }
 
   void add_default(std::size_t t) {
-    if (scene_.mesh.bears_patches(t))
-      defaulted_m2_[static_cast<std::size_t>(scene_.mesh.triangle_surface[t])] +=
-          scene_.mesh.area_m2(t);
+    const Mesh& mesh = scene_.mesh;
+    if (!mesh.bears_patches(t)) return;
+    defaulted_m2_[static_cast<std::size_t>(mesh.triangle_surface[t])] += mesh.area_m2(t);
+    if (const auto id = mesh.triangle_material[t]; id.exists())
+      defaulted_of_file_m2_[id.index()] += mesh.area_m2(t);
+  }
+
+  /// Files that keep names alone, as `sunload scene` writes crowns.
+  void warn_of_tabled_names() {
+    std::map<std::string, double> area_m2;
+    for (std::size_t m = 0; m < defaulted_of_file_m2_.size(); ++m)
+      if (defaulted_of_file_m2_[m] > 0)
+        if (const auto& name = scene_.mesh.file_materials[m].name; tabled_material(name))
+          area_m2[name] += defaulted_of_file_m2_[m];
+    if (area_m2.empty()) return;
+    std::string list, rows;
+    bool any_transmits = false;
+    for (const auto& [name, area] : area_m2) {
+      list += fmt::format("{}{} {:.4g} m2", list.empty() ? "" : ", ", name, area);
+      rows += fmt::format("{}{}: {{}}", rows.empty() ? "" : ", ", name);
+      any_transmits |= tabled_material(name)->transmittance > 0;
+    }
+    warnings_.push_back(
+        message({}, "files name materials of the table without a value (" + list + ")",
+                fmt::format("they reflect {} as what nobody defines{}", default_reflectance,
+                            any_transmits ? ", and no light passes" : ""),
+                "scene.materials: {" + rows + "} takes the table's"));
   }
 
   /// Of what is no patch the reflectance is never asked for.
@@ -465,6 +491,7 @@ class MaterialAssigner {
   std::vector<ChosenParts> selected_;  ///< faces of every rule's selection; empty: it has none
   Problems problems_;
   std::array<double, surface_names.size()> defaulted_m2_{};
+  std::vector<double> defaulted_of_file_m2_;  ///< the same by materials of files
 };
 
 }  // namespace

@@ -107,6 +107,21 @@ TEST(Examples, OfVariantsRun) {
   }
 }
 
+TEST(Scene, TellsWhatItWritesByNameAlone) {
+  const WorkFolder folder;
+  folder.write("square.obj", square_obj);
+  std::string text = square_study();
+  text.insert(
+      text.find("  files: [square.obj]"),
+      "  edit: [{add: {tree: {position_m: [15, 15], height_m: 9, crown_m: 6, trunk_m: 2}}}]\n");
+  folder.write("trees.yaml", text);
+  const Ran ran = program(folder, {"scene", "trees.yaml", "-o", "trees.obj"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  for (const char* part : {"warning: trees.obj: of crown, wood it has the names alone",
+                           "scene.materials: {crown: {}, wood: {}} takes the table's\n"})
+    EXPECT_NE(ran.err.find(part), std::string::npos) << part << ran.err;
+}
+
 /// Written and read back: types, CRS, closed bodies, and what the steps did.
 TEST(Scene, WritesTheEditedModelOfAStudy) {
   const WorkFolder folder;

@@ -95,5 +95,22 @@ TEST_F(Rules, OfOneRankTheLastWins) {
   EXPECT_TRUE(is_warned(this->plan("{object: house, material: brick}"), "'brick' matches nothing"));
 }
 
+TEST_F(Rules, NamesOfTheTableThatFilesLeaveWithoutAValueAreTold) {
+  const auto told = [&](const std::string& material) {
+    folder_.write("wall.obj", "usemtl " + material + "\n" + wall_and_crown);
+    return is_warned(plan("{object: crown, material: leaves}"),
+                     "files name materials of the table without a value (" + material +
+                         " 12 m2) (they reflect 0.2 as what nobody defines" +
+                         (material == "wood" ? ")" : ", and no light passes)") +
+                         "; scene.materials: {" + material + ": {}} takes the table's");
+  };
+  EXPECT_TRUE(told("crown_bare"));
+  EXPECT_TRUE(told("wood"));
+  EXPECT_FALSE(told("brick"));  // of the study
+  folder_.write("wall.obj", std::string("usemtl wall_7\n") + wall_and_crown);
+  EXPECT_FALSE(
+      is_warned(plan("{object: crown, material: leaves}"), "files name materials of the table"));
+}
+
 }  // namespace
 }  // namespace sunload::test
