@@ -6,12 +6,11 @@
 
 #include "geo/base/check.h"
 #include "geo/base/units.h"
+#include "solver/base/amount.h"
 
 namespace sunload {
 
 namespace {
-
-bool is_amount(double value) { return std::isfinite(value) && value >= 0; }
 
 bool is_unit(Vec3 direction) {
   constexpr double rounding = 1e-6;

@@ -3,24 +3,24 @@
 #include "solver/traced/rules.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geo/base/check.h"
+#include "solver/base/amount.h"
 #include "solver/base/random_blocks.h"
 
 namespace sunload {
 
 namespace {
 
-bool is_amount(double value) { return std::isfinite(value) && value >= 0; }
-
-bool is_reflections(int count) { return count >= 0 && count <= most_reflections; }
+/// Each iteration has random numbers of its own.
+constexpr int most_bounces = static_cast<int>(shot_blocks::of_iterations.count) - 1;
 
 }  // namespace
 
 void expect_valid(const SolverRules& rules) {
-  SUNLOAD_EXPECT(is_reflections(rules.bounces), "bounces are 0 … most_reflections");
-  SUNLOAD_EXPECT(is_reflections(rules.mirror_depth), "mirror_depth is 0 … most_reflections");
+  SUNLOAD_EXPECT(rules.bounces >= 0 && rules.bounces <= most_bounces, "bounces are 0 … 2047");
+  SUNLOAD_EXPECT(rules.mirror_depth >= 0 && rules.mirror_depth <= most_reflections,
+                 "mirror_depth is 0 … most_reflections");
   SUNLOAD_EXPECT(rules.realizations >= 1, "at least one realization");
   const auto is_shared = [&](int count) { return count >= 1 && count % rules.realizations == 0; };
   SUNLOAD_EXPECT(is_shared(rules.lines_per_patch),

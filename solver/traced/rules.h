@@ -18,7 +18,7 @@ namespace sunload {
 
 /// Counts are shared equally by the realizations: multiples of their number.
 struct SolverRules {
-  /// Light reflected diffusely 1 … bounces times is followed; 0 … most_reflections.
+  /// Light reflected diffusely 1 … bounces times is followed; 0 … 2047.
   int bounces = 5;
   /// Fewer bounces (and mirrors of the sun) where less than this share is left; 0 or more.
   double unshot = 1e-4;

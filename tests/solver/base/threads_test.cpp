@@ -48,10 +48,15 @@ TEST(ParallelChunks, RethrowTheExceptionOfTheFirstChunk) {
   for (const int threads : {1, 2, 7}) {
     const Threads set(threads);
     std::atomic<int> done = 0;
+    std::atomic<bool> has_thrown = false;
     try {
       parallel_chunks(100, 1, [&](std::size_t i, std::size_t) {
         ++done;
+        if (i == 17) has_thrown = true;
         if (i == 17 || i == 18 || i == 93) throw std::runtime_error(std::to_string(i));
+        // A busy machine may let its thread wait before the loop knows.
+        while (i > 18 && !has_thrown) std::this_thread::yield();
+        if (i > 18) std::this_thread::sleep_for(std::chrono::milliseconds(20));
       });
       ADD_FAILURE() << "nothing thrown";
     } catch (const std::runtime_error& error) {
