@@ -74,7 +74,7 @@ std::string buried_sensors(const Totals& totals, const ResultGeometry& geometry)
 /// Patches of buildings that neither sky nor anything lit sees, where there is a sky: faces within
 /// houses that are not closed. Some are in every model.
 std::string dark_faces(const Totals& totals, const ResultGeometry& geometry) {
-  constexpr double worth_a_word = 0.01;  // of the area of all that is no ground
+  constexpr double worth_a_word = 0.02;  // of the area of all that is no ground
   const auto &load = totals[sum_name(Part::total)], &sky = totals[sum_name(Part::sky)];
   if (std::ranges::none_of(sky, [](double exposure) { return exposure > 0; })) return {};
   std::vector<double> of_object(geometry.object_name.size(), 0);
