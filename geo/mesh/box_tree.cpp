@@ -14,6 +14,10 @@ constexpr double any_height = 1e300;  // as an empty Box begins: sums of two are
 
 }  // namespace
 
+Box box_of(const Mesh& mesh, std::size_t triangle) {
+  return box_around({mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)});
+}
+
 void include(Box& box, Vec3 p) {
   box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
   box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};

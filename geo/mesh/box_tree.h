@@ -14,6 +14,7 @@ namespace sunload {
 
 /// Smallest box around the points.
 Box box_around(std::initializer_list<Vec3> points);
+Box box_of(const Mesh& mesh, std::size_t triangle);
 /// Widens the box until the point is in it; a new Box is of nothing.
 void include(Box& box, Vec3 point);
 Box widened(Box box, double by);

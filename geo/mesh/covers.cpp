@@ -56,7 +56,7 @@ Covers::Covers(const Mesh& mesh, const Bodies& bodies, const std::vector<std::ui
   find_land();
   std::vector<Box> boxes;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
+    boxes.push_back(box_of(mesh, t));
     const double length = norm(mesh.area_vector2(t));
     normal_.push_back(length > 0 ? mesh.area_vector2(t) / length : Vec3{});
   }
@@ -292,7 +292,7 @@ void Covers::find_land() {
   is_land_.assign(mesh_.triangle_count(), 0);
   is_road_.assign(mesh_.triangle_count(), 0);
   for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
-    if (mesh_.triangle_surface[t] != Surface::ground || is_in_closed(t)) continue;
+    if (mesh_.triangle_surface[t] != Surface::ground || bodies_.is_closed(t)) continue;
     const auto& kind = mesh_.object_kinds[mesh_.triangle_object[t].index()];
     const bool may_be_bridge =
         kind == "Road" || kind == "Railway" || kind == "TransportSquare" || kind == "Waterway";
@@ -328,14 +328,9 @@ void Covers::find_rims() {
   rim_tree_ = BoxTree(std::move(boxes));
 }
 
-bool Covers::is_in_closed(std::size_t t) const {
-  const auto b = bodies_.triangle_body[t];
-  return b >= 0 && bodies_.bodies[static_cast<std::size_t>(b)].is_closed;
-}
-
 bool Covers::is_in_cavity(std::size_t t) const {
   const auto b = bodies_.triangle_body[t];
-  return is_in_closed(t) && bodies_.bodies[static_cast<std::size_t>(b)].volume < 0;
+  return bodies_.is_closed(t) && bodies_.bodies[static_cast<std::size_t>(b)].volume < 0;
 }
 
 bool Covers::is_cut(std::size_t plane, std::size_t of) const {

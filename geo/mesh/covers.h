@@ -39,9 +39,7 @@ class Covers {
   /// Surfaces this near to each other touch [m].
   double contact() const { return contact_; }
   Vec3 normal(std::size_t t) const { return normal_[t]; }
-  std::array<Vec3, 3> corners(std::size_t t) const {
-    return {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
-  }
+  std::array<Vec3, 3> corners(std::size_t t) const { return mesh_.corners(t); }
 
   /// Every other triangle that may touch `piece`, which is `t` or a part of it. Throws InputError
   /// where too many pairs have been visited.
@@ -111,7 +109,6 @@ class Covers {
   bool is_relief(std::size_t t) const;
   bool is_bare_terrain(std::size_t t) const;
   bool is_in_solid(std::size_t t) const;
-  bool is_in_closed(std::size_t t) const;
   bool is_in_cavity(std::size_t t) const;
   void find_bodies();
   void find_land();

@@ -41,8 +41,7 @@ class StandingOnLand {
   void find_open_edges() {
     std::vector<std::uint8_t> may_be(mesh_.triangle_count(), 0);
     for (std::size_t t = 0; t < may_be.size(); ++t) {
-      const auto b = bodies_.triangle_body[t];
-      may_be[t] = b >= 0 && !bodies_.bodies[static_cast<std::size_t>(b)].is_closed &&
+      may_be[t] = bodies_.triangle_body[t] >= 0 && !bodies_.is_closed(t) &&
                   mesh_.triangle_surface[t] != Surface::ground;
     }
     for_each_edge(edge_uses(mesh_, may_be), [this](std::span<const EdgeUse> uses) {

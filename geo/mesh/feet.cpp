@@ -272,7 +272,7 @@ class FootFinder {
       const auto b = bodies_.triangle_body[t];
       if (b < 0 || slope_of(mesh_, t) != Slope::downward) continue;
       Foot* const foot = foot_of[static_cast<std::size_t>(b)];
-      const Box box = box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)});
+      const Box box = box_of(mesh_, t);
       if (foot && box.high.z <= floor_high_[static_cast<std::size_t>(b)] + level_m)
         foot->floors.push_back(t);
     }

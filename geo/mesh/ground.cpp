@@ -161,9 +161,7 @@ class GroundMaker {
   /// Walls above the terrain or hardly below it get a part that ends below it.
   void draw_down() {
     std::vector<Box> boxes;
-    for (const auto t : terrain_)
-      boxes.push_back(
-          in_plan(box_around({mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)})));
+    for (const auto t : terrain_) boxes.push_back(in_plan(box_of(mesh_, t)));
     const BoxTree tree(std::move(boxes));
     drawn_m_.assign(feet_.size(), 0);
     for (std::size_t f = 0; f < feet_.size(); ++f) {

@@ -3,7 +3,6 @@
 #include "geo/mesh/inner_faces.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -11,13 +10,11 @@
 
 #include "geo/base/together.h"
 #include "geo/mesh/edge_table.h"
+#include "geo/mesh/orient.h"
 
 namespace sunload {
 
 namespace {
-
-/// Of area^1.5, as of bodies: less is a sheet folded onto itself.
-constexpr double least_volume = 1e-9;
 
 /// Triangles of objects that hang together where an edge has an odd number of uses above one: of
 /// each the height of the lowest point of all of these; of others nothing.
@@ -70,8 +67,7 @@ class BothSides {
     std::vector<std::uint8_t> flags(volume6.size(), 0);
     for (std::size_t side = 0; side < flags.size(); ++side) {
       const std::size_t part = parts_.of(side);
-      flags[side] = feet[side / 2].has_value() &&
-                    -volume6[part] / 6 > least_volume * std::pow(area[part], 1.5);
+      flags[side] = feet[side / 2] && encloses(-volume6[part] / 6, area[part]);
     }
     return flags;
   }

@@ -34,9 +34,7 @@ LooksDown find_looking_down(const Mesh& mesh, const Bodies& bodies, SceneKind ki
   std::vector<Plan> of_object(mesh.object_names.size());
   Plan whole;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const auto body = bodies.triangle_body[t];
-    if (body < 0 || bodies.bodies[static_cast<std::size_t>(body)].is_closed || bodies.is_inner(t))
-      continue;
+    if (bodies.triangle_body[t] < 0 || bodies.is_closed(t) || bodies.is_inner(t)) continue;
     if (mesh.triangle_sides[t] == Sides::two || mesh.triangle_surface[t] == Surface::floor)
       continue;
     Plan& plan = of_object[mesh.triangle_object[t].index()];

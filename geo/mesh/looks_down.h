@@ -20,7 +20,8 @@ struct LooksDown {
 
 /// In city models of each object; of other models of land and of what has walls, and of others only
 /// where all open surfaces together look down: rooms have ceilings that are objects. One-sided
-/// triangles alone that are not upright. `mesh` has the kinds of surface that the file tells. Cost: one pass.
+/// triangles alone that are not upright. `mesh` has the kinds of surface that the file tells. Cost:
+/// one pass.
 LooksDown find_looking_down(const Mesh& mesh, const Bodies& bodies, SceneKind kind);
 
 }  // namespace sunload

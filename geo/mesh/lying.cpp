@@ -39,7 +39,7 @@ std::vector<std::uint8_t> lying_on(const Mesh& mesh, const std::vector<std::uint
   std::vector<Box> boxes;
   for (std::size_t t = 0; t < found.size(); ++t) {
     if (others[t] == 0) continue;
-    const Box box = box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+    const Box box = box_of(mesh, t);
     if (!meet(box, around)) continue;
     near.push_back(t);
     boxes.push_back(box);

@@ -124,6 +124,9 @@ struct Mesh {
   Vec3 corner(std::size_t triangle, int k) const {
     return vertices[static_cast<std::size_t>(triangles[triangle][static_cast<std::size_t>(k)])];
   }
+  std::array<Vec3, 3> corners(std::size_t triangle) const {
+    return {corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)};
+  }
   /// Twice the area vector: cross product of two edges, along the front normal.
   Vec3 area_vector2(std::size_t triangle) const {
     const Vec3 a = corner(triangle, 0);

@@ -17,10 +17,6 @@ constexpr double far_away = 1e300;
 
 using Corners = std::array<Vec3, 3>;
 
-Corners corners_of(const Mesh& mesh, std::size_t t) {
-  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
-}
-
 /// With the axis x, or y, upright.
 Vec3 along_x(Vec3 p) { return {p.y, p.z, p.x}; }
 Vec3 along_y(Vec3 p) { return {p.z, p.x, p.y}; }
@@ -50,11 +46,9 @@ OpenHouses::OpenHouses(const Mesh& mesh, const Bodies& bodies,
     bool walls = false, roof = false;
   };
   const auto may_belong = [&](std::size_t t) {
-    const auto b = bodies.triangle_body[t];
     const auto& kind = mesh.object_kinds[mesh.triangle_object[t].index()];
     return is_opaque[t] && !bodies.is_inner(t) && mesh.triangle_surface[t] != Surface::ground &&
-           !is_land(kind) && !is_plant(kind) &&
-           !(b >= 0 && bodies.bodies[static_cast<std::size_t>(b)].is_closed);
+           !is_land(kind) && !is_plant(kind) && !bodies.is_closed(t);
   };
   std::vector<Has> has(mesh.object_names.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -78,8 +72,7 @@ OpenHouses::OpenHouses(const Mesh& mesh, const Bodies& bodies,
     if (!of_object.walls || !of_object.roof || !may_belong(t) || is_within(t)) continue;
     is_wall_[t] = slope_of(mesh, t) == Slope::upright;
     triangle_.push_back(t);
-    const Corners c = corners_of(mesh, t);
-    boxes.push_back(box_around({c[0], c[1], c[2]}));
+    boxes.push_back(box_of(mesh, t));
     Box& of = of_object_[mesh.triangle_object[t].index()];
     include(of, boxes.back().low);
     include(of, boxes.back().high);
@@ -112,7 +105,7 @@ bool OpenHouses::enclose(ObjectId object, Vec3 p) const {
     tree_.visit_meeting(line, [&](std::size_t i) {
       const std::size_t t = triangle_[i];
       if (mesh_.triangle_object[t] != object) return;
-      const int side = side_of(corners_of(mesh_, t), p, turned);
+      const int side = side_of(mesh_.corners(t), p, turned);
       if (side != 0) {
         bool& odd = is_odd[side > 0 ? ahead : ahead + 1];
         odd = !odd;

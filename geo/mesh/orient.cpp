@@ -16,8 +16,6 @@ namespace sunload {
 
 namespace {
 
-// Of area^1.5: less is a sheet folded onto itself (1 m^2 of it 1 nm thick).
-constexpr double least_volume = 1e-9;
 constexpr double inside = 0.5;               // winding numbers are whole but for rounding
 constexpr double clear_majority = 1 + 1e-9;  // equal areas must not be decided by rounding
 
@@ -121,8 +119,7 @@ class Orienter {
     }
     const bool may_change = winding_ == Winding::turn && !g_.has_conflict[b];
     body.is_closed = g_.is_linked[b] && (may_change || is_consistent_as_read) &&
-                     !g_.has_conflict[b] &&
-                     std::abs(volume6) / 6 > least_volume * std::pow(body.area, 1.5);
+                     !g_.has_conflict[b] && encloses(std::abs(volume6) / 6, body.area);
     const bool is_minority =
         may_change && flipped_area > (body.area - flipped_area) * clear_majority;
     if (body.is_closed) body.volume = (is_minority ? -volume6 : volume6) / 6;
@@ -230,11 +227,14 @@ Bodies inner_bodies(Mesh& mesh, const std::vector<std::uint8_t>& inner) {
 }  // namespace
 
 Bodies orient(Mesh& mesh, const std::vector<std::uint8_t>& faced_both_ways, Winding winding) {
-  std::vector<std::uint8_t> inner(mesh.triangle_count(), 0);
-  if (winding == Winding::turn) inner = inner_faces(mesh);
-  std::vector<std::uint8_t> included(mesh.triangle_count(), 1);
-  for (std::size_t t = 0; t < included.size(); ++t) included[t] = inner[t] == 0;
+  std::vector<std::uint8_t> included(mesh.triangle_count(), 1), inner(mesh.triangle_count(), 0);
   Links links = link_edges(mesh, included);
+  if (winding == Winding::turn && links.nonmanifold_edges > 0) inner = inner_faces(mesh);
+  const bool has_inner = std::ranges::count(inner, 1) > 0;
+  if (has_inner) {
+    for (std::size_t t = 0; t < included.size(); ++t) included[t] = inner[t] == 0;
+    links = link_edges(mesh, included);
+  }
   Orienter orienter(mesh, group(mesh, links, included), winding);
   bool is_any_left_out = false;
   for (std::size_t t = 0; t < included.size(); ++t) {
@@ -249,7 +249,7 @@ Bodies orient(Mesh& mesh, const std::vector<std::uint8_t>& faced_both_ways, Wind
   } else {
     result = orienter.finish(mesh);
   }
-  if (std::ranges::count(inner, 1) > 0) append(inner_bodies(mesh, inner), result);
+  if (has_inner) append(inner_bodies(mesh, inner), result);
   result.open_edges = links.open_edges;
   result.nonmanifold_edges = links.nonmanifold_edges;
   return result;

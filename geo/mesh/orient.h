@@ -3,12 +3,20 @@
 /// Fronts and backs: closed bodies turned outward, sheets made consistent.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "geo/mesh/mesh.h"
 
 namespace sunload {
+
+/// Whether a surface of that area has a volume within; less is a sheet folded onto itself (1 m² of
+/// it 1 nm thick).
+inline bool encloses(double volume_m3, double area_m2) {
+  constexpr double least_volume = 1e-9;  // of area^1.5
+  return volume_m3 > least_volume * std::pow(area_m2, 1.5);
+}
 
 /// keep: only find bodies, with the winding of the file. turn: change it.
 enum class Winding { keep, turn };
@@ -35,6 +43,11 @@ struct Bodies {
   std::size_t open_edges = 0;         ///< with one use
   std::size_t nonmanifold_edges = 0;  ///< with more than two uses
 
+  /// Whether a triangle is of a closed body.
+  bool is_closed(std::size_t t) const {
+    const auto b = triangle_body[t];
+    return b >= 0 && bodies[static_cast<std::size_t>(b)].is_closed;
+  }
   /// Whether a triangle is a face between the cells of a body.
   bool is_inner(std::size_t t) const {
     const auto b = triangle_body[t];

@@ -38,9 +38,7 @@ struct Facing {
 Facing facing(const Mesh& mesh, std::size_t t) {
   const Vec3 area = mesh.area_vector2(t);
   const double length = norm(area);
-  return {{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
-          length > 0 ? area / length : Vec3{},
-          length / 2};
+  return {mesh.corners(t), length > 0 ? area / length : Vec3{}, length / 2};
 }
 
 bool lies_in(const Facing& a, const Facing& b, double within_m) {

@@ -10,8 +10,7 @@ PlanTriangles::PlanTriangles(const Mesh& mesh, std::vector<std::size_t> triangle
     : mesh_(mesh), triangles_(std::move(triangles)) {
   std::vector<Box> boxes;
   boxes.reserve(triangles_.size());
-  for (const auto t : triangles_)
-    boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
+  for (const auto t : triangles_) boxes.push_back(box_of(mesh, t));
   tree_ = BoxTree(std::move(boxes));
 }
 

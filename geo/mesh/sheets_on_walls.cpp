@@ -20,10 +20,6 @@ constexpr double contacts_off = 10, looked_at_share = 0.5;
 /// Of two that look at each other: panes are parallel to their walls.
 constexpr double most_cosine = -0.99;
 
-std::array<Vec3, 3> corners_of(const Mesh& mesh, std::size_t t) {
-  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
-}
-
 /// The fronts of all closed bodies.
 class SolidFronts {
  public:
@@ -31,26 +27,23 @@ class SolidFronts {
       : mesh_(mesh), near_m_(contacts_off * contact_of(mesh)) {
     std::vector<Box> boxes;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-      const auto b = bodies.triangle_body[t];
-      if (b < 0 || !bodies.bodies[static_cast<std::size_t>(b)].is_closed) continue;
-      if (!(norm(mesh.area_vector2(t)) > 0)) continue;
+      if (!bodies.is_closed(t) || !(mesh.area_m2(t) > 0)) continue;
       triangle_.push_back(t);
-      const auto c = corners_of(mesh, t);
-      boxes.push_back(box_around({c[0], c[1], c[2]}));
+      boxes.push_back(box_of(mesh, t));
     }
     tree_ = BoxTree(std::move(boxes));
   }
 
   /// How much of a triangle looks at one from near [m2].
   double looked_at_m2(std::size_t t) const {
-    const auto c = corners_of(mesh_, t);
-    const Vec3 normal = normalized(mesh_.area_vector2(t));
+    const auto c = mesh_.corners(t);
+    const Vec3 normal = mesh_.normal(t);
     double sum = 0;
-    tree_.visit_meeting(widened(box_around({c[0], c[1], c[2]}), near_m_), [&](std::size_t i) {
+    tree_.visit_meeting(widened(box_of(mesh_, t), near_m_), [&](std::size_t i) {
       const std::size_t u = triangle_[i];
-      const Vec3 front = normalized(mesh_.area_vector2(u));
+      const Vec3 front = mesh_.normal(u);
       if (dot(normal, front) < most_cosine && is_before(c, mesh_.corner(u, 0), front))
-        sum += overlap_m2(c, normal, corners_of(mesh_, u));
+        sum += overlap_m2(c, normal, mesh_.corners(u));
     });
     return sum;
   }
@@ -83,7 +76,7 @@ std::vector<double> looked_at_of(const Mesh& mesh, const Bodies& bodies) {
     double& of = looked_at[static_cast<std::size_t>(b)];
     if (mesh.triangle_sides[t] == Sides::two || mesh.triangle_surface[t] == Surface::ground)
       of = -1;
-    else if (norm(mesh.area_vector2(t)) > 0)
+    else if (mesh.area_m2(t) > 0)
       of += fronts.looked_at_m2(t);
   }
   return looked_at;

@@ -87,9 +87,8 @@ class Sheets {
     return upward;
   }
   bool is_sheet(std::size_t t) const {
-    const auto b = bodies_.triangle_body[t];
-    return b >= 0 && !bodies_.bodies[static_cast<std::size_t>(b)].is_closed &&
-           !bodies_.is_inner(t) && mesh_.object_kinds[mesh_.triangle_object[t].index()].empty() &&
+    return bodies_.triangle_body[t] >= 0 && !bodies_.is_closed(t) && !bodies_.is_inner(t) &&
+           mesh_.object_kinds[mesh_.triangle_object[t].index()].empty() &&
            mesh_.triangle_surface[t] != Surface::ground && slope_of(mesh_, t) == Slope::upward;
   }
 
@@ -127,7 +126,7 @@ SunkWalls find_sunk_walls(const Mesh& mesh, const Bodies& bodies) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const auto b = bodies.triangle_body[t];
     if (b < 0 || slope_of(mesh, t) != Slope::upright) continue;
-    const std::array corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+    const std::array corners = mesh.corners(t);
     const Vec3 normal = mesh.area_vector2(t), middle = (corners[0] + corners[1] + corners[2]) / 3;
     const Vec3 foot = *std::ranges::min_element(corners, {}, &Vec3::z);
     const auto sheet =

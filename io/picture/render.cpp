@@ -16,6 +16,7 @@
 #include "io/base/output_target.h"
 #include "io/base/scene_colours.h"
 #include "io/picture/animated_png.h"
+#include "io/picture/overview.h"
 #include "io/picture/render_bands.h"
 #include "io/picture/render_frame.h"
 #include "io/picture/render_refusals.h"
@@ -31,63 +32,10 @@ namespace {
 // A field of view as of a 50 mm lens on 35 mm film shows shapes undistorted;
 // a street seen from within needs a wider one.
 constexpr double overview_field_deg = 27, walker_field_deg = 60;
-// Elevation of the overview: roofs and walls are both well seen.
-constexpr double overview_elevation_deg = 35;
-// From where the overview looks, beside the side that light comes from.
-constexpr double overview_aside_deg = 45;
 // Balconies and eaves of a facade are less deep than this; what stands farther in front hides it.
 constexpr double facade_front_m = 2;
-// Facades whose normals cancel out to less of their area look all ways.
-constexpr double one_sided_share = 0.2;
 // Fast enough for motion, slow enough to read the hour.
 constexpr int milliseconds_per_picture = 250;
-
-/// Azimuth, clockwise from true north, of the scene's +y axis: the turn between
-/// the sun's azimuth and its direction in the scene, at the lowest sun. A comparison, which has no
-/// sun, says it.
-double scene_north_deg(const ResultReader& result) {
-  if (!result.has("sun_direction")) {
-    const double north = result.number_attribute("north_deg");
-    return std::isnan(north) ? 0 : north;
-  }
-  const auto direction = result.doubles("sun_direction"), azimuth = result.doubles("sun_azimuth");
-  std::size_t lowest = 0;
-  for (std::size_t i = 0; i < azimuth.size(); ++i)
-    if (std::abs(direction[3 * i + 2]) < std::abs(direction[3 * lowest + 2])) lowest = i;
-  const Vec3 sun{direction.at(3 * lowest), direction.at(3 * lowest + 1), 0};
-  return norm(sun) == 0 ? 0 : azimuth[lowest] - horizontal(sun).azimuth_deg;
-}
-
-/// Unit vector of the scene towards a compass direction.
-Vec3 scene_direction(Horizontal compass, double north_deg) {
-  return enu_direction({compass.azimuth_deg - north_deg, compass.elevation_deg});
-}
-
-/// Azimuth from which light comes on the whole, by the sun's and GHI; of what has no sun the side
-/// of noon.
-double light_azimuth_deg(const ResultReader& result) {
-  constexpr double north_deg_of_compass = 0, south_deg_of_compass = 180;
-  if (!result.has("sun_azimuth"))
-    return result.number_attribute("latitude_deg") < 0 ? north_deg_of_compass
-                                                       : south_deg_of_compass;
-  const auto azimuth = result.doubles("sun_azimuth"), ghi = result.doubles("ghi");
-  Vec3 sum{0, 0, 0};
-  for (std::size_t i = 0; i < azimuth.size(); ++i) sum += ghi[i] * enu_direction({azimuth[i], 0});
-  return norm(sum) > 0 ? horizontal(sum).azimuth_deg : south_deg_of_compass;
-}
-
-/// Of north, east, south and west the side that light comes from, and of the sides beside it west
-/// for the former and the latter (the afternoon's); of a morning or an evening the one that gets
-/// more of it.
-Vec3 overview_direction(const ResultReader& result, double north_deg) {
-  constexpr double quarter_deg = 90, south_deg_of_compass = 180;
-  const double light_deg = light_azimuth_deg(result);
-  const double side_deg = std::round(light_deg / quarter_deg) * quarter_deg;
-  const bool is_noon = std::abs(std::cos(radians(side_deg))) > std::sqrt(0.5);
-  const bool is_clockwise = is_noon ? side_deg == south_deg_of_compass : light_deg >= side_deg;
-  const double aside_deg = is_clockwise ? overview_aside_deg : -overview_aside_deg;
-  return scene_direction({side_deg + aside_deg, overview_elevation_deg}, north_deg);
-}
 
 Vec3 sun_at(const ResultReader& result, std::size_t interval) {
   const auto sun = result.row("sun_direction", interval);
@@ -171,27 +119,6 @@ SunTrack sun_track(const ResultReader& result) {
     path.breaks.push_back(k > 0 && time[k] - time[k - 1] > longest_gap_s ? 1 : 0);
   }
   return path;
-}
-
-/// The side to which surfaces look on the whole, by their normals times areas; none where they
-/// look all ways, or up.
-std::optional<Vec3> side_of(Vec3 normal_sum, double area) {
-  if (!(std::hypot(normal_sum.x, normal_sum.y) >= one_sided_share * area)) return {};
-  return normal_sum;
-}
-
-/// Of the place that a map is of.
-std::optional<Vec3> side_of_mapped_place(const ResultReader& result) {
-  const auto weight = result.doubles("place_weight"), area = result.doubles("patch_area"),
-             normal = result.doubles("patch_normal");
-  Vec3 sum{0, 0, 0};
-  double all = 0;
-  for (std::size_t p = 0; p < weight.size(); ++p)
-    if (weight[p] > 0) {
-      sum += area[p] * Vec3{normal[3 * p], normal[3 * p + 1], normal[3 * p + 2]};
-      all += area[p];
-    }
-  return side_of(sum, all);
 }
 
 /// Of patches, 0 of those that a picture of these parts is not of.

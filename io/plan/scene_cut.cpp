@@ -68,7 +68,7 @@ void leave_out_far_from(const std::vector<PlanArea>& areas, const Mesh& mesh,
     for (const auto& ring : area)
       for (const Point2 p : ring) include(box, Vec3{p.u, p.v, 0} - mesh.origin);
   std::erase_if(faces, [&](std::size_t t) {
-    const Box of = box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+    const Box of = box_of(mesh, t);
     return of.low.x > box.high.x || of.high.x < box.low.x || of.low.y > box.high.y ||
            of.high.y < box.low.y;
   });

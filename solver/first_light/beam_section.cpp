@@ -21,7 +21,7 @@ HalfSpace beside_point(Vec3 through, Vec3 inward, double margin) {
 
 FlatPolygon whole(const Mesh& mesh, std::int32_t triangle) {
   const auto t = static_cast<std::size_t>(triangle);
-  return FlatPolygon(std::array{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+  return FlatPolygon(mesh.corners(t));
 }
 
 /// A rectangle on a wall, its sides level and upright.

@@ -56,7 +56,7 @@ Nearness::Nearness(const Scene& scene) : scene_(scene) {
     is_wall_[t] = is_wall(mesh, t);
     if (!is_wall_[t]) continue;
     walls_.push_back(t);
-    boxes.push_back(box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
+    boxes.push_back(box_of(mesh, t));
   }
   boxes_ = BoxTree(std::move(boxes));
 }

@@ -65,7 +65,7 @@ std::vector<std::vector<std::size_t>> stood_on(const Mesh& mesh, const std::vect
   std::vector<std::vector<std::size_t>> triangles(sensors.size());
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!(norm(mesh.area_vector2(t)) > 0)) continue;
-    const Box box = box_around({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)});
+    const Box box = box_of(mesh, t);
     tree.visit_meeting(widened(box, reach), [&](std::size_t s) {
       if (distance(mesh, t, sensors[s].position) < reach) triangles[s].push_back(t);
     });

@@ -171,7 +171,6 @@ std::unique_ptr<TracedScene> trace_scene(const Scene& scene, std::shared_ptr<con
 std::unique_ptr<TracedScene> trace_scene(const Scene& scene, const SplitRules& split,
                                          const SolverRules& rules, Watch& watch,
                                          std::optional<Lines> ready) {
-  expect_valid(rules);
   return trace_scene(scene, std::make_shared<const Hierarchy>(scene, split), rules, watch,
                      std::move(ready));
 }
