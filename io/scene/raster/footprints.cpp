@@ -18,6 +18,7 @@
 #include "io/scene/raster/fill_holes.h"
 #include "io/scene/raster/gdal_file.h"
 #include "io/scene/raster/raster.h"
+#include "io/scene/raster/written_length.h"
 
 namespace sunload {
 
@@ -40,49 +41,6 @@ const Names bases{"base_height", "base_m", "ground_height", "ground_elevation"};
 // Of OpenStreetMap: where a part of a building begins above the ground.
 const Names lower_ends{"min_height"}, lower_levels{"building:min_level", "min_level"};
 const Names names{"id", "gml_id", "osm_id", "fid", "egid", "ref", "name"};
-
-/// A number of a column and what is written behind it.
-struct Written {
-  double value = 0;
-  std::string unit;
-};
-
-bool is_foot(const std::string& unit) { return unit == "ft" || unit == "'"; }
-
-/// With a point in the place of a comma that can be nothing but a decimal one: `12,5`, not `1,500`.
-std::string with_decimal_point(std::string text) {
-  constexpr std::size_t of_thousands = 3;
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos || comma == 0 ||
-      text.find_first_of(".,", comma + 1) != text.npos || text.find('.') < comma)
-    return text;
-  const std::size_t end = std::min(text.find_first_not_of("0123456789", comma + 1), text.size());
-  const std::size_t digits = end - comma - 1;
-  if (digits > 0 && digits != of_thousands) text[comma] = '.';
-  return text;
-}
-
-/// Inches behind feet, `6"`.
-std::optional<double> inches_in(const std::string& text) {
-  char* end = nullptr;
-  const double inches = std::strtod(text.c_str(), &end);
-  const bool are_inches = end != text.c_str() && trimmed(end) == "\"" && inches >= 0;
-  return are_inches ? std::optional(inches) : std::nullopt;
-}
-
-/// `12`, `12.5 m`, `40 ft`, `39'6"`.
-std::optional<Written> parsed(const std::string& text) {
-  constexpr double inches_per_foot = 12;
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || !std::isfinite(value)) return {};
-  const std::string unit(trimmed(end));
-  if (unit.empty() || unit == "m" || is_foot(unit)) return Written{value, unit};
-  if (unit.front() != '\'') return {};
-  const auto inches = inches_in(unit.substr(1));
-  if (!inches) return {};
-  return Written{value + *inches / inches_per_foot, "'"};
-}
 
 struct DestroyFeature {
   void operator()(void* feature) const { gdal::OGR_F_Destroy(feature); }
@@ -291,11 +249,11 @@ class FootprintReader {
   /// Storeys with a comma may be a list.
   enum class Commas { decimal, unknown };
   /// Texts that are no number are counted.
-  std::optional<Written> written(OGRFeatureH feature, int column, Commas commas) {
+  std::optional<WrittenLength> written(OGRFeatureH feature, int column, Commas commas) {
     if (column < 0 || gdal::OGR_F_IsFieldSetAndNotNull(feature, column) == 0) return {};
     const std::string text(trimmed(gdal::OGR_F_GetFieldAsString(feature, column)));
     if (text.empty()) return {};
-    auto found = parsed(commas == Commas::decimal ? with_decimal_point(text) : text);
+    auto found = written_length(commas == Commas::decimal ? with_decimal_point(text) : text);
     if (!found) count_unread(text);
     return found;
   }
@@ -317,9 +275,9 @@ class FootprintReader {
     constexpr double international_foot_m = 0.3048;
     const auto found = written(feature, column, Commas::decimal);
     if (!found) return {};
-    return found->value * (found->unit.empty()    ? unit_m_
-                           : is_foot(found->unit) ? international_foot_m
-                                                  : 1);
+    return found->value * (found->unit.empty()   ? unit_m_
+                           : found->is_in_feet() ? international_foot_m
+                                                 : 1);
   }
 
   std::string title(OGRFeatureH feature) const {
