@@ -155,6 +155,27 @@ void combine(const std::vector<const PackedColumns*>& nodes,
                   });
 }
 
+/// Power that the rays of every sun of a block bring to patches [W]: terms of the ledger.
+struct FirstPower {
+  std::array<double, block_width> sun{}, absorbed{}, unshot{};
+};
+/// What becomes of light that a patch meets.
+struct SharesOfPatch {
+  double stopped, absorbed, diffuse;
+};
+
+/// Adds one patch, whose light is not followed (ledger_of_patch).
+SUNLOAD_VECTOR_CODE void add_power(const float* __restrict direct, const float* __restrict mirror,
+                                   double area, SharesOfPatch shares, FirstPower& power) {
+  for (std::size_t k = 0; k < block_width; ++k) {
+    const auto straight = static_cast<double>(direct[k]);
+    const double all = straight + static_cast<double>(mirror[k]);
+    power.sun[k] += area * straight * shares.stopped;
+    power.absorbed[k] += area * shares.absorbed * all;
+    power.unshot[k] += area * shares.diffuse * all;
+  }
+}
+
 /// An interval with that sky and nothing else.
 IntervalLight sky_alone(IntervalLight light) {
   light.dni = light.ground_exitance = light.sunlit_s = 0;
@@ -193,30 +214,23 @@ void NodeWeights::add(std::size_t source, std::size_t interval, double weight) {
 
 std::vector<Ledger> ledger_of_rays(const TracedScene& traced, const PatchOptics& optics,
                                    const Columns& direct, const Columns& mirror, std::size_t suns) {
-  using Ledgers = std::array<Ledger, block_width>;
   const std::vector<double>& area = traced.hierarchy().area();
-  std::vector<Ledgers> parts(chunk_count(area.size(), receivers_per_chunk));
-  const LineEnds no_ends{};
+  std::vector<FirstPower> parts(chunk_count(area.size(), receivers_per_chunk));
   parallel_chunks(area.size(), receivers_per_chunk, [&](std::size_t begin, std::size_t end) {
-    Ledgers& part = parts[begin / receivers_per_chunk];
+    FirstPower& part = parts[begin / receivers_per_chunk];
     for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = 0; k < suns; ++k) {
-        const auto straight = static_cast<double>(direct[i * block_width + k]);
-        const auto mirrored = static_cast<double>(mirror[i * block_width + k]);
-        if (straight + mirrored == 0) continue;
-        part[k] += ledger_of_patch({.area = area[i],
-                                    .diffuse = static_cast<double>(optics.diffuse[i]),
-                                    .absorbed = optics.absorbed(i),
-                                    .passed = static_cast<double>(optics.passed[i]),
-                                    .direct = straight,
-                                    .total = straight + mirrored,
-                                    .last = straight + mirrored},
-                                   no_ends);
-      }
+      add_power(&direct[i * block_width], &mirror[i * block_width], area[i],
+                {1 - static_cast<double>(optics.passed[i]), optics.absorbed(i),
+                 static_cast<double>(optics.diffuse[i])},
+                part);
   });
   std::vector<Ledger> ledger(suns);
   for (std::size_t k = 0; k < suns; ++k)
-    for (const auto& part : parts) ledger[k] += part[k];
+    for (const FirstPower& part : parts) {
+      ledger[k][Term::sun] += part.sun[k];
+      ledger[k][Term::absorbed] += part.absorbed[k];
+      ledger[k][Term::unshot] += part.unshot[k];
+    }
   return ledger;
 }
 

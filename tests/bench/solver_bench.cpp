@@ -168,8 +168,13 @@ void bench(const std::string& path, std::size_t batches) {
     const std::size_t first = (2 * b + 1) * there_are / (2 * some) * plan.batch_suns();
     const auto light =
         lights.of(plan.light, first, std::min(plan.intervals() - first, plan.batch_suns()));
+    const std::size_t before = lit.size();
     for (const auto& sun : light)
       if (!sun.is_dark()) lit.push_back(sun);
+    // As they stand side by side in blocks of the batch.
+    std::ranges::stable_sort(std::span(lit).subspan(before), {}, [](const IntervalLight& sun) {
+      return place_in_batch(sun.direction);
+    });
     work += solve(*transport, light, watch).work;
   }
   const auto patches = static_cast<double>(traced->patches.count());

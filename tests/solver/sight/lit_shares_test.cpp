@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "geo/base/units.h"
 #include "geo/mesh/mesh_prepare.h"
 #include "io/scene/file.h"
 #include "solver/base/rng.h"
@@ -271,6 +272,22 @@ TEST(LitShares, DoNotDependOnOtherSuns) {
       scene.materials.front().mirror = 0.6;
       expect_independence(scene, suns_in_a_row(half_angle));
     }
+}
+
+/// The middle of suns that stand close together sees the roof from behind, the last of them from
+/// before it.
+TEST(LitShares, DoNotDependOnOtherSunsWhereSomeGrazeARoof) {
+  constexpr double slope = 40 * radians_per_degree;
+  SceneBuilder b;
+  const int grey = b.material({"grey", 0.3, 0, 0});
+  const double ridge = 10 + 4 * std::tan(slope), eaves = 10 - 4 * std::tan(slope);
+  b.quad({-6, -4, ridge}, {6, -4, ridge}, {6, 4, eaves}, {-6, 4, eaves}, grey);
+  b.box({-1.5, -2.5, 8}, {-0.5, -1.7, 13}, grey, SceneBuilder::Facing::outward);
+  b.box({2.2, -1.1, 8}, {3.1, -0.4, 12}, grey, SceneBuilder::Facing::outward);
+  std::vector<Vec3> directions;
+  for (int k = 0; k < 16; ++k)
+    directions.push_back(sun_at(-1.5 + 0.001 * k, (38.1 + 0.2 * k) * radians_per_degree));
+  expect_independence(b.scene(), block_of(directions));
 }
 
 /// Direct sun by shares is the same in all realizations.
