@@ -10,6 +10,8 @@
 
 #include "geo/base/units.h"
 #include "geo/edit/objects.h"
+#include "geo/mesh/box_tree.h"
+#include "geo/mesh/feet.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -228,13 +230,16 @@ double foot_beside(const PolygonModel& model, std::size_t object, const ObjectEx
   return is_of_land ? height : extent.box.low.z;
 }
 
-/// The foot of the object nearest in plan, of plants or of all others.
-std::optional<double> nearest_foot(const PolygonModel& model, Point2 place, bool of_plants) {
+/// Crowns, and what was put into the air.
+bool may_hover(const std::string& kind) { return is_plant(kind) || kind == hanging_kind; }
+
+/// The foot of the object nearest in plan, of what may hover or of all others.
+std::optional<double> nearest_foot(const PolygonModel& model, Point2 place, bool of_hovering) {
   std::optional<std::size_t> nearest;
   double least = std::numeric_limits<double>::infinity();
   const auto extents = extents_of(model);
   for (std::size_t o = 0; o < extents.size(); ++o) {
-    if (extents[o].is_empty() || is_plant(kind_of(model, o)) != of_plants) continue;
+    if (extents[o].is_empty() || may_hover(kind_of(model, o)) != of_hovering) continue;
     const double away = distance_in_plan(extents[o], place);
     if (away >= least) continue;
     least = away;
@@ -250,7 +255,26 @@ std::optional<double> standing_height(const PolygonModel& model, Point2 place) {
   if (const auto ground = ground_height(model, place)) return ground;
   if (const auto land = lowest_top(model, place)) return land;
   if (const auto foot = nearest_foot(model, place, false)) return foot;
-  return nearest_foot(model, place, true);  // crowns may hover
+  return nearest_foot(model, place, true);
+}
+
+std::optional<double> height_in_the_air(const PolygonModel& model, const Box& lower_face) {
+  constexpr double gap_m = 0.5;  // files leave gaps between bodies that stand on each other
+  const Vec3 middle = centre_of(lower_face);
+  const auto land = standing_height(model, {middle.x, middle.y});
+  if (!land || lower_face.low.z - *land <= highest_step_m) return {};
+  for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+    const std::string& kind = kind_of(model, model.facts[p].object.index());
+    if (is_land(kind) || may_hover(kind) || model.facts[p].surface == Surface::ground) continue;
+    const LooseFace face = face_of(model, p);
+    Box box;
+    for (const Vec3 corner : face.rings[0]) include(box, corner);
+    if (box.high.z >= lower_face.low.z - gap_m && box.low.x <= lower_face.high.x &&
+        box.high.x >= lower_face.low.x && box.low.y <= lower_face.high.y &&
+        box.high.y >= lower_face.low.y)
+      return {};
+  }
+  return lower_face.low.z - *land;
 }
 
 }  // namespace sunload

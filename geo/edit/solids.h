@@ -44,8 +44,13 @@ void add_tree(PolygonModel& model, Vec3 foot, const TreeShape& shape, const Soli
 
 /// Height that a thing put there stands on: that of the model's ground faces below the place, else
 /// of what lies lowest there of objects of which nobody says what they are, else the foot of the
-/// object nearest in plan (of land: its height there), of plants only where there is nothing else.
-/// Nothing in an empty model.
+/// object nearest in plan (of land: its height there), of plants and of what hangs in the air only
+/// where there is nothing else. Nothing in an empty model.
 std::optional<double> standing_height(const PolygonModel& model, Point2 place);
+
+/// How high above that a thing hangs whose lower face fills the box: nothing where it is no more
+/// than a step of the land (geo/mesh/feet.h), or where anything but land, plants and what hangs
+/// itself reaches up to the face and carries it, or stands beside.
+std::optional<double> height_in_the_air(const PolygonModel& model, const Box& lower_face);
 
 }  // namespace sunload

@@ -20,13 +20,6 @@ namespace sunload {
 namespace {
 
 constexpr double steepest_edge = 1.7321;  // tan 60 degrees: steeper edges are corners of walls
-constexpr double lowest_house_m = 2;      // of what nothing says is one
-
-/// CityJSON 2.0.1, section 2.2, and types of extensions, which begin with a plus.
-bool is_building(const std::string& kind) {
-  return kind == "Building" || kind == "BuildingPart" || kind == "OtherConstruction" ||
-         (kind.starts_with('+') && kind.find("Building") != std::string::npos);
-}
 
 struct LowerEdge {
   std::array<std::int32_t, 2> ends;
@@ -83,8 +76,8 @@ class FootFinder {
     has_feet_.resize(mesh.object_names.size());
     for (std::size_t o = 0; o < has_feet_.size(); ++o) {
       const std::string& of = mesh.object_kinds[o];
-      has_feet_[o] =
-          kind == SceneKind::city ? is_building(of) || of.empty() : !is_plant(of) && !is_land(of);
+      has_feet_[o] = kind == SceneKind::city ? is_building(of) || of.empty()
+                                             : !is_plant(of) && !is_land(of) && of != hanging_kind;
     }
   }
 
@@ -361,6 +354,11 @@ class FootFinder {
 };
 
 }  // namespace
+
+bool is_building(const std::string& kind) {
+  return kind == "Building" || kind == "BuildingPart" || kind == "OtherConstruction" ||
+         (kind.starts_with('+') && kind.find("Building") != std::string::npos);
+}
 
 std::vector<Foot> find_feet(const Mesh& mesh, const Bodies& bodies, SceneKind kind) {
   return FootFinder(mesh, bodies, kind).run();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "geo/mesh/mesh.h"
@@ -50,9 +51,17 @@ struct Foot {
   double plan_m2 = 0;                      ///< of what looks up or down, the larger
 };
 
+/// What is lower is no house, unless its type says so.
+inline constexpr double lowest_house_m = 2;
+/// Whether an object of that type stands on the ground as buildings do: CityJSON 2.0.1,
+/// section 2.2, and types of extensions, which begin with a plus.
+bool is_building(const std::string& kind);
+/// Type of what is put into the air: no ground goes through its lower edges, also in plain files.
+inline constexpr const char* hanging_kind = "BuildingInstallation";
+
 /// Feet of all bodies that have walls, but for plants and land; of a city, of its
-/// buildings, and of what has no type there (of plain files) and is as high as a storey.
-/// In the order of the bodies.
+/// buildings, and of what has no type there (of plain files) and is as high as a storey; none of
+/// what hangs in the air by its type. In the order of the bodies.
 ///
 /// A lower edge has an upright face above it, and below it a face that looks down or nothing. Of a
 /// body those count that are at its foot or reached from there along lower edges (a foot on a

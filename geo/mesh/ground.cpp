@@ -431,12 +431,23 @@ class GroundMaker {
 
 }  // namespace
 
-Standing standing_on(const Mesh& mesh, const std::vector<Foot>& feet,
-                     const std::optional<GroundRules>& rules, std::size_t body_count) {
+Standing standing_on(const Mesh& mesh, const Bodies& bodies, const std::vector<Foot>& feet,
+                     const std::optional<GroundRules>& rules) {
   Standing standing;
+  const std::size_t body_count = bodies.bodies.size();
   standing.on_body.assign(body_count, 0);
-  for (const Foot& foot : feet)
-    if (foot.stance == Stance::body) standing.on_body[static_cast<std::size_t>(foot.body)] = 1;
+  standing.hangs.assign(body_count, 0);
+  standing.may_hang.assign(body_count, 0);
+  for (std::size_t b = 0; b < body_count; ++b) {
+    const std::string& kind = mesh.object_kinds[bodies.bodies[b].object.index()];
+    standing.hangs[b] = kind.starts_with("Bridge") || kind.find("Installation") != kind.npos;
+    standing.may_hang[b] = !is_building(kind);
+  }
+  for (const Foot& foot : feet) {
+    const auto b = static_cast<std::size_t>(foot.body);
+    standing.on_body[b] = foot.stance == Stance::body;
+    standing.hangs[b] = standing.may_hang[b] = foot.stance == Stance::hovering;
+  }
   if (!rules) return standing;
   standing.level_z = level_z(mesh, feet, *rules);
   if (standing.level_z) return standing;

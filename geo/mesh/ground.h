@@ -63,10 +63,13 @@ struct Standing {
   std::optional<double> level_z;        ///< of a plate, in the mesh's z
   std::vector<std::uint8_t> on_ground;  ///< per body: the ground will go through its feet
   std::vector<std::uint8_t> on_body;    ///< per body: it stands on another one, perhaps in part
+  /// Per body of a city: it hovers, or is a bridge or an installation, as balconies are.
+  std::vector<std::uint8_t> hangs;
+  std::vector<std::uint8_t> may_hang;  ///< or has no foot and is no building: a canopy, a plate
 };
 /// Without rules nobody stands on a ground.
-Standing standing_on(const Mesh& mesh, const std::vector<Foot>& feet,
-                     const std::optional<GroundRules>& rules, std::size_t body_count);
+Standing standing_on(const Mesh& mesh, const Bodies& bodies, const std::vector<Foot>& feet,
+                     const std::optional<GroundRules>& rules);
 
 /// What add_ground has made.
 struct GroundMade {

@@ -192,7 +192,7 @@ std::vector<Foot> settle(Mesh& mesh, const PrepareRules& rules, const PolygonMod
   // What stands on another body has an underside, whatever the ground is.
   const bool asks_for_feet = rules.ground.has_value() || kind == SceneKind::city;
   auto feet = asks_for_feet ? find_feet(mesh, bodies, kind) : std::vector<Foot>{};
-  const Standing standing = standing_on(mesh, feet, rules.ground, bodies.bodies.size());
+  const Standing standing = standing_on(mesh, bodies, feet, rules.ground);
   if (rules.orientation == Orientation::outward)
     report.looks_down = find_looking_down(mesh, bodies, kind);
   decide_surfaces(mesh, bodies, kind, standing);

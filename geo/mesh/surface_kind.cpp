@@ -67,7 +67,8 @@ class Decision {
     for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
       Surface& kind = mesh_.triangle_surface[t];
       // A file calls the underside of what juts out over the street so, too.
-      if (kind == Surface::floor && is_on_body(t) && slope_of(mesh_, t) == Slope::downward)
+      if (kind == Surface::floor && (is_on_body(t) || may_hang(t)) &&
+          slope_of(mesh_, t) == Slope::downward)
         kind = Surface::other;
       if (kind != Surface::other) continue;
       if (const auto s = slope_of(mesh_, t)) kind = surface(t, *s);
@@ -87,6 +88,12 @@ class Decision {
            standing_.on_body[static_cast<std::size_t>(b)] != 0;
   }
 
+  bool may_hang(std::size_t t) const {
+    const auto b = bodies_.triangle_body[t];
+    return kind_ == SceneKind::city && b >= 0 &&
+           standing_.may_hang[static_cast<std::size_t>(b)] != 0;
+  }
+
   Surface surface(std::size_t t, Slope s) {
     const Body* body = body_of(t);
     const bool is_closed = body && body->is_closed;
@@ -101,7 +108,7 @@ class Decision {
     if (body && body->is_inside_out) return Surface::other;
     if (s == Slope::upward) return Surface::roof;
     if (!is_at_foot(t, body)) return Surface::other;
-    if (kind_ == SceneKind::city && !is_on_body(t)) return Surface::floor;
+    if (kind_ == SceneKind::city && !is_on_body(t) && !may_hang(t)) return Surface::floor;
     low_faces_.push_back(t);
     return Surface::other;
   }
@@ -121,33 +128,45 @@ class Decision {
     return true;
   }
 
-  /// Of the low faces of a plain scene's bodies, and of a city's bodies on others, those that touch
-  /// what is below.
+  /// Of the low faces of a plain scene's bodies, and of a city's bodies on others or in the air,
+  /// those that touch what is below.
   void find_floors() {
     const Supports supports(mesh_, bodies_);
     for (const std::size_t t : low_faces_) {
       const auto b = bodies_.triangle_body[t];
       const bool is_on_feet =
           !standing_.on_ground.empty() && standing_.on_ground[static_cast<std::size_t>(b)] != 0;
-      if (is_on_feet || is_supported(t, b, supports)) mesh_.triangle_surface[t] = Surface::floor;
+      const Below below = below_of(t, b, supports);
+      if (is_on_feet || below == Below::touching || (below == Below::nothing && may_be_plate(b)))
+        mesh_.triangle_surface[t] = Surface::floor;
     }
   }
+
+  /// Of a city: what nothing lies below may be its land.
+  bool may_be_plate(std::int32_t b) const {
+    const auto body = static_cast<std::size_t>(b);
+    return kind_ == SceneKind::city && standing_.may_hang[body] != 0 && standing_.hangs[body] == 0;
+  }
+
+  enum class Below { touching, apart, nothing };
 
   /// At its middle and just inside of its corners: what is in part over the edge of a table is cut
   /// there later (geo/mesh/covered). Of a city, where files leave gaps between bodies that stand on
   /// each other, also a little above.
-  bool is_supported(std::size_t t, std::int32_t b, const Supports& supports) const {
+  Below below_of(std::size_t t, std::int32_t b, const Supports& supports) const {
     constexpr double inside = 0.99, gap_of_city_m = 0.5;
     const Heights heights = heights_of(bodies_.bodies[static_cast<std::size_t>(b)]);
     const Vec3 middle = (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3;
+    bool is_touched = true, is_any = false;
     for (int k = 0; k < 4; ++k) {
       const Vec3 p = k < 3 ? middle + inside * (mesh_.corner(t, k) - middle) : middle;
       double support_z = supports.below(b, p.x, p.y, heights.high);
       if (standing_.level_z) support_z = std::max(support_z, *standing_.level_z);
       const double gap_m = kind_ == SceneKind::city ? gap_of_city_m : heights.touching();
-      if (!(support_z >= p.z - gap_m)) return false;
+      is_any = is_any || support_z > -std::numeric_limits<double>::infinity();
+      is_touched = is_touched && support_z >= p.z - gap_m;
     }
-    return true;
+    return is_touched ? Below::touching : is_any ? Below::apart : Below::nothing;
   }
 
   Mesh& mesh_;

@@ -32,8 +32,9 @@ inline constexpr double touching_ratio = 0.005;
 /// body and are no patches: of a plain file a face at the foot is one only where the highest upward
 /// face below it (up to the body's top, so that sunk bodies are not taken to hover) touches
 /// it, or, where nothing is below, the ground that the scene will get. Without a ground it is lit
-/// from below. Buildings of cities stand on the ground even where none comes with them. Rooms,
-/// whose fronts look inward (`Winding::keep`), have walls and `other`.
+/// from below. Buildings of cities stand on the ground even where none comes with them; what may
+/// hang in the air there (Standing) is asked as plain files are. Rooms, whose fronts look inward
+/// (`Winding::keep`), have walls and `other`.
 void decide_surfaces(Mesh& mesh, const Bodies& bodies, SceneKind kind, const Standing& standing);
 
 }  // namespace sunload

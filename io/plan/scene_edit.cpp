@@ -14,6 +14,7 @@
 #include "geo/edit/objects.h"
 #include "geo/edit/raise.h"
 #include "geo/edit/solids.h"
+#include "geo/mesh/feet.h"
 #include "geo/sun/map_axes.h"
 #include "geo/sun/site.h"
 #include "io/base/name_pattern.h"
@@ -326,8 +327,16 @@ class SceneEditor {
     const double base = base_of(add.base_m, {middle.x, middle.y});
     auto taken = names_taken();
     const std::string name = unused_name(add.name, taken);
-    add_prism(model_, areas, base, base + add.height_m, {name, kind_of("Building"), add.material});
-    tell_placed(fmt::format("adds, from z = {:.2f} m,", base), {name});
+    box.low.z = box.high.z = base;
+    const auto above = add.base_m ? height_in_the_air(model_, box) : std::nullopt;
+    const bool hangs = above && add.height_m < lowest_house_m;
+    add_prism(model_, areas, base, base + add.height_m,
+              {name, hangs ? hanging_kind : kind_of("Building"), add.material});
+    std::string where = fmt::format("from z = {:.2f} m", base);
+    if (hangs) where += fmt::format(", {:.2f} m in the air", *above);
+    if (above && !hangs)
+      where += fmt::format(", {:.2f} m above the land there, to which a made ground rises", *above);
+    tell_placed("adds, " + where + ",", {name});
   }
 
   void apply(const AddTreesEdit& add) {

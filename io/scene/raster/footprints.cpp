@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "geo/edit/solids.h"
+#include "geo/mesh/feet.h"
 #include "geo/sun/map_axes.h"
 #include "io/scene/base/from_file.h"
 #include "io/scene/raster/crossing_outlines.h"
@@ -311,13 +312,13 @@ class FootprintReader {
     last_unread_.clear();
     const auto height = height_m(feature);
     if (!height) return note_without_height(name);
-    note_lower_end(feature, name);
     if (!(*height <= highest_m))
       fail(fmt::format("{} is {:g} m high", name, *height), "no building is",
            "is the column one of heights above the ground?");
     const double foot = foot_m(feature, areas, lowest_z, name);
-    add_prism(model_, areas, foot, foot + *height,
-              {.name = name, .kind = "Building", .material = {}});
+    const double begins_m = lower_end_m(feature, *height, name);
+    add_prism(model_, areas, foot + begins_m, foot + *height,
+              {.name = name, .kind = begins_m > 0 ? hanging_kind : "Building", .material = {}});
   }
 
   void note_without_height(const std::string& name) {
@@ -327,15 +328,21 @@ class FootprintReader {
     if (!last_unread_.empty()) named_ += fmt::format(": '{}'", last_unread_);
   }
 
-  /// Of a part that begins above the ground, which is drawn from its foot on.
-  void note_lower_end(OGRFeatureH feature, const std::string& name) {
+  /// Where a part of a building begins above its foot; 0: there.
+  double lower_end_m(OGRFeatureH feature, double height_m, const std::string& name) {
     auto begins_m = length_m(feature, lower_end_);
     if (!begins_m)
       if (const auto levels = number(feature, lower_level_)) begins_m = *levels * rules_.storey_m;
-    if (!begins_m || !(*begins_m > 0)) return;
-    if (raised_++ < most_named)
-      raised_named_ +=
-          fmt::format("{}{} at {:g} m", raised_named_.empty() ? "" : ", ", name, *begins_m);
+    if (!begins_m || !(*begins_m > 0)) return 0;
+    if (*begins_m < height_m) {
+      ++raised_;
+      return *begins_m;
+    }
+    if (upside_down_++ < most_named)
+      upside_down_named_ +=
+          fmt::format("{}{} from {:g} to {:g} m", upside_down_named_.empty() ? "" : ", ", name,
+                      *begins_m, height_m);
+    return 0;
   }
 
   /// Of a polygon, or of several.
@@ -426,14 +433,18 @@ class FootprintReader {
                       "they count as not written",
                       unread_, first_unread_));
     if (raised_ > 0)
+      notes_.say(
+          fmt::format("{} of {} footprints begin above the ground, by min_height or "
+                      "building:min_level",
+                      raised_, model_.object_names.size()));
+    if (upside_down_ > 0)
       model_.warnings.push_back(message(
           {path_},
-          fmt::format("{} of {} footprints begin above the ground by min_height or "
-                      "building:min_level, and are drawn from their feet on ({}{})",
-                      raised_, model_.object_names.size(), raised_named_,
-                      raised_ > most_named ? ", …" : ""),
-          "walls stand where passages and overhangs are open",
-          "a step of scene.edit removes them, another adds each with footprint: {base_m: …}"));
+          fmt::format("{} of {} footprints begin no lower than they end, by min_height or "
+                      "building:min_level ({}{})",
+                      upside_down_, model_.object_names.size(), upside_down_named_,
+                      upside_down_ > most_named ? ", …" : ""),
+          "they are drawn from their feet on", "correct them, or take them away in scene.edit"));
     if (storeys_ >= 0) notes_.say(fmt::format("a storey is {:g} m high", rules_.storey_m));
     put_notes(notes_, model_);
   }
@@ -455,11 +466,12 @@ class FootprintReader {
   NoteCounter notes_;
   UniqueNames unique_;
   std::size_t without_height_ = 0, corners_ = 0, of_default_height_ = 0, unread_ = 0;
-  std::size_t raised_ = 0;      ///< that begin above the ground
-  bool is_any_unread_ = false;  ///< of those without height
+  std::size_t raised_ = 0;       ///< that begin above the ground
+  std::size_t upside_down_ = 0;  ///< of those that would, begin no lower than they end
+  bool is_any_unread_ = false;   ///< of those without height
   std::string first_unread_, last_unread_;
-  std::string named_;         ///< the first of those without height
-  std::string raised_named_;  ///< the first of those that begin above the ground
+  std::string named_;              ///< the first of those without height
+  std::string upside_down_named_;  ///< the first of those
 };
 
 }  // namespace

@@ -77,6 +77,37 @@ TEST(SurfaceKind, BodiesThatHoverHaveNoFloor) {
   EXPECT_EQ(downward["hovers"], std::set{Surface::other});
 }
 
+/// What looks down at the foot of each object of a city.
+std::map<std::string, std::set<Surface>> undersides(ModelBuilder& builder) {
+  const auto p = builder.city().prepared({.ground = GroundRules{}});
+  std::map<std::string, std::set<Surface>> downward;
+  for (std::size_t t = 0; t < p.mesh.triangle_count(); ++t)
+    if (p.mesh.area_vector2(t).z < 0)
+      downward[p.mesh.object_names[p.mesh.triangle_object[t].index()]].insert(
+          p.mesh.triangle_surface[t]);
+  return downward;
+}
+
+TEST(SurfaceKind, WhatHangsInACityHasNoFloor) {
+  auto builder = ModelBuilder().object("house", "Building").box({0, 0, 0}, {10, 10, 9});
+  builder.object("passage", "BuildingPart").box({10, 0, 4}, {14, 10, 9});
+  builder.object("balcony", "BuildingInstallation").box({2, -1.5, 3}, {6, 0, 3.2});
+  builder.object("stair", "BuildingInstallation").box({7, -1.5, 0}, {9, 0, 1});
+  builder.object("canopy", "BuildingInstallation").box({30, 0, 5}, {40, 8, 5.5});
+  builder.object("panel").box({0, 20, 3}, {4, 24, 3.2});
+  builder.object("plate").box({-20, -20, -1}, {60, 40, 0});
+  builder.object("tower", "BuildingInstallation").box({2, 2, 9}, {5, 5, 14});
+  auto found = undersides(builder);
+  EXPECT_EQ(found["house"], std::set{Surface::floor});
+  EXPECT_EQ(found["stair"], std::set{Surface::floor});
+  EXPECT_EQ(found["plate"], std::set{Surface::floor});
+  EXPECT_EQ(found["tower"], std::set{Surface::floor});
+  EXPECT_EQ(found["passage"], std::set{Surface::other});
+  EXPECT_EQ(found["balcony"], std::set{Surface::other});
+  EXPECT_EQ(found["canopy"], std::set{Surface::other});
+  EXPECT_EQ(found["panel"], std::set{Surface::other});
+}
+
 TEST(SurfaceKind, WhereNothingIsBelowTheGroundDecides) {
   auto builder = ModelBuilder().object("low").box({0, 0, 0}, {2, 2, 4});
   builder.object("high").box({20, 0, 1}, {22, 2, 4});

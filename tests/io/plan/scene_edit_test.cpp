@@ -333,5 +333,34 @@ TEST_F(SceneEdit, WhatItPutsInsideOfOthersIsWarnedOf) {
   EXPECT_FALSE(names(beside, "inside others")) << beside;
 }
 
+/// No ground climbs to a deck; a house far above the others stands on a slope.
+TEST_F(SceneEdit, WhatIsLowAndFarAboveTheLandHangsInTheAir) {
+  const Study with = study(
+      "{add: {name: deck, box: {position_m: [75, 5, 5], size_m: [10, 8, 0.5]}}}, "
+      "{add: {name: deck_2, box: {position_m: [85, 5, 5], size_m: [10, 8, 0.5]}}}, "
+      "{add: {name: penthouse, box: {position_m: [5, 5, 6], size_m: [4, 4, 1.5]}}}, "
+      "{add: {name: balcony, box: {position_m: [5, -1, 3], size_m: [4, 2, 0.2]}}}, "
+      "{add: {name: terrace, box: {position_m: [75, 25, 1], size_m: [10, 8, 0.5]}}}, "
+      "{add: {name: villa, box: {position_m: [75, 45, 5], size_m: [10, 8, 6]}}}",
+      ", ground: {margin_m: 10}");
+  const EditedModel made = edited(read_models(with), with);
+  const auto kind = [&](const std::string& name) {
+    const auto& names = made.model.object_names;
+    return made.model.object_kinds[static_cast<std::size_t>(
+        std::find(names.begin(), names.end(), name) - names.begin())];
+  };
+  for (const char* name : {"deck", "deck_2"}) EXPECT_EQ(kind(name), "BuildingInstallation");
+  for (const char* name : {"penthouse", "balcony", "terrace", "villa"}) EXPECT_EQ(kind(name), "");
+  const auto is_told = [&](const std::string& text) {
+    return std::ranges::any_of(made.model.notes, [&](const std::string& note) {
+      return note.find(text) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(is_told("from z = 5.00 m, 5.00 m in the air, 1 object: deck"));
+  EXPECT_TRUE(
+      is_told("from z = 5.00 m, 4.00 m above the land there, to which a made ground rises, "
+              "1 object: villa"));
+}
+
 }  // namespace
 }  // namespace sunload::test
