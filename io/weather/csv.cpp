@@ -165,7 +165,8 @@ class StampReader {
     }
   }
 
-  RowStamp operator()(const std::vector<std::string_view>& fields, std::size_t line) {
+  /// A row of that time, in UTC where offsets are written.
+  StampedRow operator()(const std::vector<std::string_view>& fields, std::size_t line) {
     std::string written;
     for (const auto column : columns_)
       written += (written.empty() ? "" : "T") + std::string(fields[column]);
@@ -179,9 +180,9 @@ class StampReader {
                  "write it in all rows or in none");
     offsets_ = now;
     check_day(text_, line, parsed->stamp);
-    RowStamp stamp = parsed->stamp;
-    stamp.second -= parsed->offset_s.value_or(0);
-    return stamp;
+    StampedRow row{parsed->stamp, {}, static_cast<int>(line), parsed->offset_s.value_or(0)};
+    row.stamp.second -= row.clock_s;
+    return row;
   }
   bool are_utc() const { return offsets_ == Offsets::written; }
 
@@ -223,11 +224,10 @@ WeatherFile read_weather_csv(const WeatherText& text, std::optional<Stamp> stamp
                                           : irradiance(fields[column->second], line, name);
     };
     const auto albedo = head.columns.find("albedo");
-    rows.push_back(
-        {stamps(fields, line),
-         {value("dni"), value("dhi"), value("ghi"),
-          albedo == head.columns.end() ? std::nullopt : ground_albedo(fields[albedo->second])},
-         static_cast<int>(line)});
+    rows.push_back(stamps(fields, line));
+    rows.back().values = {
+        value("dni"), value("dhi"), value("ghi"),
+        albedo == head.columns.end() ? std::nullopt : ground_albedo(fields[albedo->second])};
   }
   file.records = records_of(text, rows, *stamp);
   if (stamps.are_utc()) file.offset_s = 0;

@@ -179,12 +179,13 @@ void put_on_the_day_before(WeatherRecord& r) {
   r.end_s += seconds_per_day;
 }
 
-/// What ends at midnight is of the day before, and of its year; but for the first row, with which a
-/// year may begin that is written from 00:00 to 23:00.
-WeatherYears years_by_stamp(std::vector<WeatherRecord> instants, Stamp stamp) {
+/// What ends at midnight of its own clock is of the day before, and of its year; but for the first
+/// row, with which a year may begin that is written from 00:00 to 23:00.
+WeatherYears years_by_stamp(std::vector<WeatherRecord> instants,
+                            const std::vector<StampedRow>& rows, Stamp stamp) {
   if (stamp == Stamp::end)
     for (std::size_t i = 1; i < instants.size(); ++i)
-      if (instants[i].begin_s == 0) put_on_the_day_before(instants[i]);
+      if (rows[i].stamp.second + rows[i].clock_s == 0) put_on_the_day_before(instants[i]);
   return years_of(instants);
 }
 
@@ -221,7 +222,7 @@ std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector
     records.push_back({row.stamp.year, row.stamp.month, row.stamp.day, row.stamp.second,
                        row.stamp.second, row.values, row.line});
   // Rows of a typical year follow each other in a year that has all days.
-  const bool is_typical = years_by_stamp(records, stamp) == WeatherYears::typical;
+  const bool is_typical = years_by_stamp(records, rows, stamp) == WeatherYears::typical;
   const std::optional<int> year = is_typical ? std::optional(leap_year) : std::nullopt;
   if (is_typical)
     for (auto& r : records) r.year = 0;

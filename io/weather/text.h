@@ -79,6 +79,7 @@ struct StampedRow {
   RowStamp stamp;
   WeatherValues values;
   int line = 0;
+  double clock_s = 0;  ///< what its own clock is ahead of that of `stamp`
 };
 
 /// Throws InputError for a day that no year has.

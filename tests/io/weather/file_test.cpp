@@ -431,6 +431,27 @@ TEST(WeatherCsv, OffsetsMakeUtc) {
   EXPECT_EQ(plain.records[1].end_s, 86400);
 }
 
+/// Midnight is that of the clock which a row is written in: what ends an hour later is no hour of
+/// the month before, which would make dates go back.
+TEST(WeatherCsv, YearsWithOffsetsAreTheirOwn) {
+  for (const auto& [offset, utc] :
+       {std::pair("+01:00", "2024-02-28T23:00:00Z"), std::pair("Z", "2024-02-29T00:00:00Z"),
+        std::pair("-05:00", "2024-02-29T05:00:00Z")}) {
+    std::string rows = "time,ghi\n";
+    const UnixTime begin = utc_from_calendar({2024, 2, 29, 0, 0, 0});
+    for (int h = 1; h <= 48; ++h) {
+      const CivilTime end = calendar_from_utc(begin + 3600. * h);
+      rows +=
+          fmt::format("2024-{:02}-{:02}T{:02}:00{},100\n", end.month, end.day, end.hour, offset);
+    }
+    const auto file = read("a.csv", rows, Stamp::end);
+    ASSERT_EQ(years_of(file.records), WeatherYears::actual) << offset;
+    const auto weather = dated(file.records, {}, *file.offset_s);
+    EXPECT_EQ(iso_utc(weather.front().begin), utc);
+    EXPECT_EQ(weather.back().end - weather.front().begin, 48 * 3600);
+  }
+}
+
 /// Hours of days in June.
 std::string june_of(int year) {
   std::string rows;
