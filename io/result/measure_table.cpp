@@ -109,7 +109,8 @@ class Judge {
   }
 
  private:
-  static constexpr double rounding = 1e-12;  // of sums of areas
+  /// Of areas: corners of files are rounded to millimetres, and halves of a house are halves of it.
+  static constexpr double rounding = 1e-3;
   /// The best value that so much of the area has or betters.
   double reached_by(double share, std::vector<double> values,
                     const std::vector<double>& area) const {

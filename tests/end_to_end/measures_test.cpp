@@ -75,6 +75,41 @@ TEST(Measures, VerdictsAgreeWithWhatIsReached) {
   EXPECT_GT(halves, 5);
 }
 
+// One of two equal slopes is half of a roof, whatever rounding of its ridge to millimetres says.
+TEST(Measures, HalfOfARoofIsHalfOfIt) {
+  const WorkFolder folder;
+  folder.write(
+      "square.obj",
+      "o house\nusemtl plaster\n"
+      "v -4 -5 0\nv 4 -5 0\nv 4 5 0\nv -4 5 0\nv -4 -5 3\nv 4 -5 3\nv 4 5 3\nv -4 5 3\n"
+      "v 0.001 -5 6\nv 0.001 5 6\n"
+      "f 4 3 2 1\nf 1 2 6 9 5\nf 2 3 7 6\nf 3 4 8 10 7\nf 4 1 5 8\nf 6 7 10 9\nf 8 5 9 10\n"
+      "o tower\nusemtl plaster\n"
+      "v -9 -9 0\nv -5 -9 0\nv -5 9 0\nv -9 9 0\nv -9 -9 30\nv -5 -9 30\nv -5 9 30\nv -9 9 "
+      "30\n"
+      "f 11 12 16 15\nf 12 13 17 16\nf 13 14 18 17\nf 14 11 15 18\nf 15 16 17 18\n"
+      "f 14 13 12 11\n");
+  std::string more = "measures:\n";
+  for (int p = 1; p < 100; ++p)
+    more += fmt::format(
+        "  sky_{}: {{rule: bre_209_vsc, least_percent: {}, of: {{object: house, surface: "
+        "roof}}}}\n",
+        p, p);
+  folder.write("square.yaml", square_study("totals", "", "1000") + more);
+  const Ran ran = program(folder, {"run", "square.yaml"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  int halves = 0;
+  for (const MeasureRow& row :
+       measure_table(ResultReader(folder / "results/square/baseline.h5"), {{}, {"house"}, {}})) {
+    if (std::abs(row.passing_percent - 50) > 0.05) continue;
+    ++halves;
+    EXPECT_LT(row.passing_percent, 50);
+    EXPECT_EQ(row.level, "pass") << row.measure << ": " << row.passing_percent << " %";
+    EXPECT_GE(row.margin, 0) << row.measure;
+  }
+  EXPECT_GT(halves, 5);
+}
+
 TEST(Measures, HaveVerdictsAndTellWhoLoses) {
   const WorkFolder folder;
   write(folder, measures + measured_variants);
