@@ -195,12 +195,15 @@ void begin_in_typical_months(std::vector<WeatherRecord>& records) {
     if (r.day == 1 && r.month != 3 && r.end_s <= 0) put_on_the_day_before(r);
 }
 
-/// Records that begin on the day before 1 March get its date: which one it is depends on the year,
-/// and weather may be written as another. The 29th is it where rows of that day come before.
-void begin_in_february(std::vector<WeatherRecord>& records) {
+/// Records that by their own clock begin on the day before 1 March get its date: which one it is
+/// depends on the year, and weather may be written as another. The 29th is it where rows of that
+/// day come before. What ends with the 28th is of the 28th.
+void begin_in_february(std::vector<WeatherRecord>& records, const std::vector<StampedRow>& rows) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     WeatherRecord& r = records[i];
-    if (r.month != 3 || r.day != 1 || r.begin_s >= 0) continue;
+    const double clock_s = rows[i].clock_s;
+    if (r.month == 2 && r.day == 29 && r.end_s + clock_s <= 0) put_on_the_day_before(r);
+    if (r.month != 3 || r.day != 1 || r.begin_s + clock_s >= 0) continue;
     const bool is_first_of_leap_year = i == 0 && r.year != 0 && std::chrono::year{r.year}.is_leap();
     const bool after_leap_day =
         i == 0 ? is_first_of_leap_year : records[i - 1].month == 2 && records[i - 1].day == 29;
@@ -232,7 +235,7 @@ std::vector<WeatherRecord> records_of(const WeatherText& text, const std::vector
     r.begin_s -= before;
     r.end_s = r.begin_s + step;
   }
-  begin_in_february(records);
+  begin_in_february(records, rows);
   if (is_typical) begin_in_typical_months(records);
   const auto placed = dated(records, year, 0);
   const auto wrong = first_out_of_order(placed);

@@ -452,6 +452,39 @@ TEST(WeatherCsv, YearsWithOffsetsAreTheirOwn) {
   }
 }
 
+/// 1 March of a leap year begins in UTC on the 29th of February, with rows of that day or without.
+TEST(WeatherCsv, MarchOfALeapYearBeginsBehindItsLeapDay) {
+  const std::string march = "2024-03-01T00:30+05:45,3\n2024-03-01T01:30+05:45,4\n";
+  for (const char* before : {"", "2024-02-28T22:30+05:45,1\n2024-02-28T23:30+05:45,2\n",
+                             "2023-06-01T11:30+05:45,1\n2023-06-01T12:30+05:45,2\n"}) {
+    const auto file = read("a.csv", "time,ghi\n" + (before + march), Stamp::middle);
+    const auto weather = dated(file.records, {}, *file.offset_s);
+    EXPECT_EQ(iso_utc(weather.back().begin), "2024-02-29T19:15:00Z") << before;
+    EXPECT_EQ(iso_utc(weather[weather.size() - 2].begin), "2024-02-29T18:15:00Z") << before;
+  }
+}
+
+/// Of typical years, whose months are of different years and have no leap day.
+TEST(WeatherCsv, WhatEndsWithThe28thOfFebruaryIsOfIt) {
+  for (const auto& [offset, utc] :
+       {std::pair("", "2001-02-28T23:00:00Z"), std::pair("+01:00", "2001-02-28T22:00:00Z")}) {
+    std::string rows = "time,ghi\n";
+    for (const CivilTime& day : {CivilTime{2005, 1, 31}, {2008, 2, 28}, {2005, 3, 1}}) {
+      for (int h = 1; h <= 24; ++h) {
+        const CivilTime end = calendar_from_utc(utc_from_calendar(day) + 3600. * h);
+        rows += fmt::format("{}-{:02}-{:02}T{:02}:00{},{}\n", end.year, end.month, end.day,
+                            end.hour, offset, day.month);
+      }
+    }
+    const auto file = read("a.csv", rows, Stamp::end);
+    ASSERT_EQ(years_of(file.records), WeatherYears::typical);
+    const auto weather = dated(file.records, 2001, 0);
+    ASSERT_EQ(weather.size(), 72u) << "none is of 29 February";
+    EXPECT_EQ(iso_utc(weather[47].begin), utc);
+    EXPECT_EQ(*weather[47].values.ghi, 2);
+  }
+}
+
 /// Hours of days in June.
 std::string june_of(int year) {
   std::string rows;
