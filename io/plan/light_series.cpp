@@ -238,18 +238,17 @@ SunPath dated_path(const Study& study, const Site& site, LightSeries& series) {
   return path_of(steps.steps, study, site, series);
 }
 
-/// Light as the weather says it under an open horizon; hills take their share of the beam. The
-/// sky's shape follows from DNI while the sun is up, which cannot exceed the sun's own.
-LitInterval measured_light(const SunInterval& when, const Irradiance& open) {
+/// Light as the weather says it; hills take their share of the beam. The sky's shape follows from
+/// DNI while the sun is up, which cannot exceed the sun's own.
+LitInterval measured_light(const SunInterval& when, const WeatherMean& mean) {
+  const Irradiance& open = mean.open;
   LitInterval interval{when, open, {0, open.dhi, open.ghi}};
   if (when.up_s <= 0) return interval;
   // The sky while the sun is up: nearly all of the diffuse light falls then, too.
   interval.of_the_sky = scaled(open, when.length_s() / when.up_s);
   interval.of_the_sky.dni =
       std::min(interval.of_the_sky.dni, extraterrestrial(when.sun.distance_au));
-  if (when.sunlit_s == when.up_s) return interval;
-  const double free = when.sunlit_s / when.up_s;
-  interval.mean = {open.dni * free, open.dhi, open.dhi + (open.ghi - open.dhi) * free};
+  if (when.sunlit_s < when.up_s) interval.mean = mean.past_hills;
   return interval;
 }
 

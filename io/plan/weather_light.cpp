@@ -42,6 +42,12 @@ Site open(Site site) {
   return site;
 }
 
+/// As much of the beam as the interval's sunlit part has.
+Irradiance past_hills(const Irradiance& open, const SunInterval& when) {
+  const double share = when.up_s > 0 ? when.sunlit_s / when.up_s : 1;
+  return {open.dni * share, open.dhi, open.dhi + (open.ghi - open.dhi) * share};
+}
+
 /// Same stretches, so that nothing is to be divided.
 bool are_same(const std::vector<DatedWeather>& weather, const SunPath& path) {
   return std::equal(weather.begin(), weather.end(), path.begin(), path.end(),
@@ -155,7 +161,7 @@ void StudyWeather::date_for(const SunPath& path) {
   }
 }
 
-std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
+std::vector<WeatherMean> StudyWeather::means(const SunPath& path) {
   if (dated_.empty()) {
     date_for(path);
     fill_holes_in(path);
@@ -171,21 +177,40 @@ std::vector<Irradiance> StudyWeather::means(const SunPath& path) {
           : sun_path(steps_of(used), site_, study_.sun.refraction, study_.sun.ut1_utc);
   say_closure(as_read, weather_path);
   say_doubts(as_read, weather_path);
-  const WeatherLight light =
+  WeatherLight light =
       with_sun(used, weather_path, source_, study_.light.decomposition, site_.elevation_m);
   if (light.dark_beams > 0)
     words_.push_back(
         fmt::format("{} records have DNI without sun above the horizon: {:.4g} Wh/m2 "
                     "of direct light dropped, DHI kept",
                     light.dark_beams, light.dropped_dni_wh_m2));
-  std::vector<Irradiance> means;
+  std::vector<WeatherMean> means;
   if (own) {
-    for (const auto& interval : light.intervals) means.push_back(interval.mean);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const Irradiance& mean = light.intervals[i].mean;
+      means.push_back({mean, past_hills(mean, path[i])});
+    }
     return means;
   }
+  if (!study_.site.horizon.is_open()) put_hills(used, light);
   const Resampled resampled = resample(light.intervals, path);
   expect_covered(path, resampled.uncovered);
-  return resampled.mean;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    means.push_back({resampled.mean[i], resampled.past_hills[i]});
+  return means;
+}
+
+/// When the sun of the records stands above the hills of the site.
+void StudyWeather::put_hills(const std::vector<DatedWeather>& used, WeatherLight& light) const {
+  Site site = site_;
+  site.horizon = study_.site.horizon;
+  const SunPath path = sun_path(steps_of(used), site, study_.sun.refraction, study_.sun.ut1_utc);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    SunInterval& when = light.intervals[i].when;
+    when.sunlit_s = path[i].sunlit_s;
+    when.sunlit_begin = path[i].sunlit_begin;
+    when.sunlit_end = path[i].sunlit_end;
+  }
 }
 
 /// From what the period uses: a value elsewhere is no column. Where that has nothing, other days

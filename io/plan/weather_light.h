@@ -18,6 +18,11 @@ namespace sunload {
 /// Year that typical weather is written as where the study does not choose one.
 inline constexpr int typical_year = 2001;
 
+/// Light of an interval: of an open horizon, and without the beam that hills take.
+struct WeatherMean {
+  Irradiance open, past_hills;
+};
+
 /// Weather for one study: read, dated, filled, with its sun. Throws InputError for what the
 /// file lacks; everything that was done to the data is said in `words`.
 class StudyWeather {
@@ -29,7 +34,7 @@ class StudyWeather {
   std::vector<PeriodStep> own_steps() const;
   /// Means over the intervals of `path`, which are the own steps or any others. InputError
   /// where the weather does not reach.
-  std::vector<Irradiance> means(const SunPath& path);
+  std::vector<WeatherMean> means(const SunPath& path);
 
   /// Of the ground in the intervals of `path`, after `means`: by days of the site's clock.
   DayAlbedos albedos(const SunPath& path) const;
@@ -49,6 +54,7 @@ class StudyWeather {
   void fill_holes_in(const SunPath& path);
   double offset_s(int year) const;
   int first_year() const;
+  void put_hills(const std::vector<DatedWeather>& used, WeatherLight& light) const;
   void choose_source(const std::vector<DatedWeather>& used);
   /// `used`: by the path, as read.
   std::vector<DatedWeather> without_gaps(std::vector<DatedWeather> used, const SunPath& path);

@@ -403,6 +403,41 @@ TEST(Resample, WhatReachesTheGroundFollowsTheSun) {
   EXPECT_GT(most, 4 * least);
 }
 
+// Behind hills in the morning the beam of the records that are over is gone, and no share of the
+// hour's mean, which is half of it by then.
+TEST(Resample, HillsTakeTheBeamOfTheirRecords) {
+  Site valley = prague;
+  valley.horizon = Horizon({{0, 10}, {90, 17}, {100, 4}, {110, 24}, {180, 12}});
+  std::vector<DatedWeather> weather;
+  const UnixTime begin = utc_from_calendar({2001, 3, 20, 0, 0, 0});
+  for (int i = 0; i < 144; ++i)
+    weather.push_back(
+        {begin + i * 600, begin + (i + 1) * 600, {std::abs(700.0 - 10 * i), 50, {}}, i + 1});
+  const auto open = path_of(weather), behind = path_of(weather, valley);
+  auto light = with_sun(weather, open, WeatherSource::dni_and_dhi, Decomposition::erbs, 0);
+  for (std::size_t i = 0; i < open.size(); ++i) light.intervals[i].when = behind[i];
+  double all = 0;
+  for (const double step : {600.0, one_hour, 4 * one_hour, 24 * one_hour}) {
+    const auto path = steps_of(begin, begin + 24 * one_hour, step, valley);
+    const auto means = resample(light.intervals, path);
+    double dni = 0, ghi = 0, open_dni = 0;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      double wanted = 0;
+      for (std::size_t r = 0; r < weather.size(); ++r)
+        if (weather[r].begin >= path[i].begin && weather[r].end <= path[i].end && open[r].up_s > 0)
+          wanted += light.intervals[r].mean.dni * 600 * behind[r].sunlit_s / open[r].up_s;
+      EXPECT_NEAR(means.past_hills[i].dni * step, wanted, 1e-6 * wanted + 1e-6) << step << " " << i;
+      EXPECT_EQ(means.past_hills[i].dhi, means.mean[i].dhi);
+      dni += means.past_hills[i].dni * step;
+      open_dni += means.mean[i].dni * step;
+      ghi += means.past_hills[i].ghi * step;
+    }
+    if (all == 0) all = ghi;
+    EXPECT_NEAR(ghi, all, 1e-6 * all) << step;
+    EXPECT_LT(dni, 0.9 * open_dni);
+  }
+}
+
 // A day by UTC in Tokyo has sun at its beginning and at its end.
 TEST(Resample, ANightInsideOfARecordTakesNoBeam) {
   const Site tokyo{.latitude_deg = 35.68, .longitude_deg = 139.77};
