@@ -75,8 +75,11 @@ std::vector<std::size_t> chosen_patches(const ResultReader& result, const NamedP
 }
 
 std::string different_north_in_words(const ResultReader& base, const ResultReader& variant) {
-  const double turn = base.number_attribute("north_deg") - variant.number_attribute("north_deg");
-  if (!(std::abs(turn) > 0)) return {};
+  // A map's grid turns by this over a kilometre, and ranges of azimuth overlook it.
+  constexpr double worth_telling_deg = 0.01;
+  const double turn = std::remainder(
+      base.number_attribute("north_deg") - variant.number_attribute("north_deg"), 360);
+  if (!(std::abs(turn) > worth_telling_deg)) return {};
   return "the scenes are turned against each other: facades and orientations are named by their "
          "azimuth, and a wall of two names is in rows of one result alone; objects are the same";
 }

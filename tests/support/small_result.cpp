@@ -234,6 +234,7 @@ std::string write_small_result(const SmallResult& result, const std::string& nam
                      {"timezone", "Europe/Prague"},
                      {"pairing_id", result.pairing_id}};
   if (result.measure) attributes.text.emplace_back("measures", "sun");
+  if (result.north_deg) attributes.numbers.emplace_back("north_deg", *result.north_deg);
   writer.finish(attributes, "name: small\n");
   return path.string();
 }

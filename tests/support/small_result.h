@@ -31,6 +31,7 @@ struct SmallResult {
   std::vector<SmallHouse> houses{{"house_1", {-12, 0, 0}, {-2, 8, 9}},
                                  {"house_2", {2, 0, 0}, {12, 8, 6}}};
   Vec3 origin{1000, 2000, 0};
+  std::optional<double> north_deg = {};  ///< nothing: not stored
   /// Of all patches; nothing: not stored, nor what they send, as of earlier versions.
   std::optional<double> diffuse_reflectance = {};
   double emitted_exitance = 0;  ///< [W m-2], of all patches; 0: not stored

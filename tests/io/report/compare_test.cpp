@@ -248,6 +248,23 @@ TEST(Compare, HousesOfOneResultOnlyAreCountedAsUnmatched) {
   }
 }
 
+TEST(Compare, ScenesThatAreHardlyTurnedAreNotToldOf) {
+  SmallResult straight;
+  straight.north_deg = -180;
+  const ResultReader base(write_small_result(straight, "compare_north"));
+  const auto tells_of_turn = [&](double by_deg) {
+    SmallResult other = straight;
+    *other.north_deg += by_deg;
+    const ResultReader turned(write_small_result(other, "compare_turned"));
+    const auto notes = compare_results(base, turned).notes;
+    return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("turned against each other") != std::string::npos;
+    });
+  };
+  for (const double none : {0.0, 4e-8, -0.005, 360.0}) EXPECT_FALSE(tells_of_turn(none)) << none;
+  for (const double some : {0.02, 90.0, 180.0}) EXPECT_TRUE(tells_of_turn(some)) << some;
+}
+
 /// A taller house_2: walls with new parts, and a roof elsewhere.
 SmallResult with_a_taller_house() {
   SmallResult taller;
