@@ -67,7 +67,7 @@ def parts_of(result, quantity, targets, hours):
     if not parts:
         return [quantity], np.array([whole])
     rest = whole - np.sum(sums, axis=0)
-    if np.nansum(np.abs(rest)) > ROUNDING_SHARE * np.nansum(whole):
+    if np.nansum(np.abs(rest)) > max(ROUNDING_SHARE, result.rounding(quantity)) * np.nansum(whole):
         parts, sums = parts + [REST], sums + [rest]
     return parts, np.array(sums)
 

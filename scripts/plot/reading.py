@@ -364,6 +364,12 @@ class Result:
                 values[begin:begin + rows, k] = block[:, inside].astype(float) @ weight[inside]
         return values
 
+    def rounding(self, quantity):
+        """How far sums of series of patches may be apart that are rounded to some bits
+        (output.significant_bits), as a share."""
+        bits = self.file[quantity].attrs.get("_QuantizeBitRoundNumberOfSignificantBits") if self.has(quantity) else None
+        return 0.0 if bits is None else 2.0 ** -int(bits)
+
     def components(self, quantity, targets):
         """The series that add up to a quantity, those that the file has for all of the targets."""
         prefixes = {"sensor_" if target.kind == "sensor" else "" for target in targets}

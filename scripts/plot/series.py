@@ -11,6 +11,7 @@ import interpreter  # first: finds a Python that has the other packages
 
 import matplotlib.dates as dates
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 import drawing
 from drawing import plt
@@ -114,6 +115,7 @@ def draw_piece(axes, result, targets, bounds, values, is_daily, most_ticks):
             stairs(axes, edges, values[:, k], **style)
     axes.grid(True)
     if result.is_synthetic:
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         return
     locator = dates.AutoDateLocator(tz=result.zone, minticks=min(3, most_ticks), maxticks=min(7, most_ticks + 1))
     axes.xaxis.set_major_locator(locator)

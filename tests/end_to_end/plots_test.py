@@ -227,6 +227,16 @@ def test_series(plots, path, result):
     close(column(days, "irradiance of house/south_1").sum(), result["facade_light_load"][facade], 1e-5)
 
 
+def test_series_without_dates(sunload, folder):
+    """Suns by their positions are counted: no half of one stands below the axis."""
+    path = run_study(sunload, folder, "positions", re.sub(
+        r"site:.*\nperiod:.*\nlight:.*\n", "period: {positions: [{azimuth_deg: 90, elevation_deg: 20}, {azimuth_deg: 180, elevation_deg: 40}]}\n"
+        "light: {source: fixed, dni_w_m2: 700, dhi_w_m2: 100}\n", STUDY[:STUDY.index("variants")])
+        .replace("name: square", "name: positions"))
+    figure, _ = drawn("series", path)
+    assert all(place == int(place) for place in figure.axes[0].get_xticks()), figure.axes[0].get_xticks()
+
+
 def test_carpet(plots, path, result):
     facade = [name.decode() for name in result["facade_name"][...]].index("house/east_1")
     rows = plots.rows("carpet", path, "--facade", "house/east_1")
@@ -335,6 +345,18 @@ def test_months_of_some_parts(plots, sunload, folder):
             close(column(mine, "sum").sum(), result["facade_light_load"][k], 1e-5)
             close(column(mine, "irradiance_direct").sum(), facade_means(result, "light_load_direct", k), 1e-5)
             assert column(mine, "other parts, not stored").sum() > 0, name
+
+
+def test_months_of_rounded_series(sunload, folder):
+    """What the rounding of series leaves of the whole is no part that is not stored."""
+    with open(os.path.join(folder, "square.yaml")) as file:
+        text = file.read()
+    path = run_study(sunload, folder, "rounded", text[:text.index("variants")].replace("name: square", "name: rounded", 1) +
+                     "output: {significant_bits: 5}\n")
+    figure, _ = drawn("months", path)
+    words = [entry.get_text() for legend in [*figure.legends, *(axes.get_legend() for axes in figure.axes)] if legend
+             for entry in legend.get_texts()]
+    assert "direct" in words and "other parts, not stored" not in words, words
 
 
 def test_sun_path(plots, path, result):
@@ -642,6 +664,8 @@ def test(sunload, source, folder):
             check(plots, path, result)
             print(f"{check.__name__}: as in the file")
     test_months_of_some_parts(plots, sunload, folder)
+    test_months_of_rounded_series(sunload, folder)
+    test_series_without_dates(sunload, folder)
     test_months_of_days(sunload, folder)
     test_facade_map_drawing(path)
     test_facade_map_of_tower(sunload, folder)
