@@ -15,6 +15,7 @@
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
+#include "io/scene/file.h"
 #include "io/study/material_table.h"
 
 namespace sunload {
@@ -158,8 +159,9 @@ namespace {
 /// Areas of faces along each axis, to within some 8 degrees [m2, doubled].
 struct AreasAlongAxes {
   std::array<double, 3> area{};  ///< both ways
-  std::array<double, 3> net{};   ///< along the axis less against it
+  std::array<double, 3> net{};   ///< along the axis less against it, as seen along it
   double all = 0;                ///< of all faces
+  Box box{};                     ///< about them
 
   /// The level axis that has more.
   std::size_t wider() const { return area[0] > area[1] ? 0 : 1; }
@@ -176,10 +178,10 @@ AreasAlongAxes areas_along_axes(const Mesh& mesh) {
     sums.all += own;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double c = component(n, static_cast<int>(axis));
-      if (std::abs(c) < along * own) continue;
-      sums.area[axis] += own;
       sums.net[axis] += c;
+      if (std::abs(c) >= along * own) sums.area[axis] += own;
     }
+    for (int corner = 0; corner < 3; ++corner) include(sums.box, mesh.corner(t, corner));
   }
   return sums;
 }
@@ -201,13 +203,28 @@ double share_with_common_foot(const std::vector<Body>& bodies, int axis) {
   return bodies.empty() ? 0 : std::max(low, high) / static_cast<double>(bodies.size());
 }
 
+/// A sheet that covers the box about it once as seen along the axis, and shows along z about as
+/// much of one side as of the other: land with its houses in one piece. A facade with its reveals
+/// is flatter.
+bool is_sheet_of_land(const AreasAlongAxes& sums, std::size_t axis) {
+  constexpr double once = 0.9, little = 0.1, least_depth = 0.15;
+  const Vec3 size = sums.box.high - sums.box.low;
+  const double depth = component(size, static_cast<int>(axis));
+  const double width = axis == 0 ? size.y : size.x;
+  const double net = std::abs(sums.net[axis]);
+  return net / 2 > once * width * size.z && std::abs(sums.net[2]) < little * net &&
+         sums.area[2] > little * sums.all && depth > least_depth * std::min(width, size.z);
+}
+
 /// A town has much that is level, as open sheet or as roofs of bodies whose feet are level, and its
 /// walls face all sides.
 bool lies_on_its_side(const AreasAlongAxes& sums, const std::vector<Body>& bodies) {
   constexpr double much = 3, most_of_bodies = 0.8, some_walls = 0.05;
   constexpr std::size_t some_bodies = 3;
   const std::size_t wide = sums.wider();
-  if (sums.all <= 0 || sums.area[wide] < much * sums.area[2]) return false;
+  if (sums.all <= 0) return false;
+  if (is_sheet_of_land(sums, wide)) return true;
+  if (sums.area[wide] < much * sums.area[2]) return false;
   const bool bears_walls = sums.all - sums.area[wide] > some_walls * sums.all;  // or is one itself
   const double net = std::abs(sums.net[wide]);
   const bool is_open_land =
@@ -218,6 +235,24 @@ bool lies_on_its_side(const AreasAlongAxes& sums, const std::vector<Body>& bodie
   return is_open_land || is_town;
 }
 
+/// The axis that points up in a file, as the study says or else its format.
+char up_of(const SceneStudy& scene, const SceneFileStudy& file) {
+  const char said = file.up != 0 ? file.up : scene.up;
+  if (said != 0) return said;
+  const auto format = scene_format_of_name(file.path);
+  return format && format->says_up && format->kind == SceneFileKind::mesh ? 'y' : 'z';
+}
+
+/// What files call a level axis of the scene, 0 or 1; nothing where not all point up alike.
+std::optional<char> axis_of_files(const SceneStudy& scene, std::size_t axis) {
+  if (scene.files.empty()) return {};
+  const char up = up_of(scene, scene.files.front());
+  for (const auto& file : scene.files)
+    if (up_of(scene, file) != up) return {};
+  if (axis == 0) return up == 'x' ? 'y' : 'x';
+  return up == 'z' ? 'y' : 'z';
+}
+
 }  // namespace
 
 std::string on_its_side_warning(const Study& study, const BuiltScene& prepared,
@@ -226,15 +261,18 @@ std::string on_its_side_warning(const Study& study, const BuiltScene& prepared,
   const AreasAlongAxes sums = areas_along_axes(prepared.scene.mesh);
   if (!lies_on_its_side(sums, prepared.bodies.bodies)) return {};
   constexpr double percent = 100;
-  const char* const axis = sums.wider() == 0 ? "x" : "y";
+  const auto axis = axis_of_files(study.scene, sums.wider());
   return message(
       study.scene.where,
       fmt::format("the scene seems to lie on its side: {:.0f} % of its area faces along {}, {:.0f} "
                   "% is level",
-                  percent * sums.area[sums.wider()] / sums.all, axis,
+                  percent * sums.area[sums.wider()] / sums.all,
+                  axis ? fmt::format("{} of its files", *axis) : "one level axis",
                   percent * sums.area[2] / sums.all),
       "its walls are taken for level land and the other way round",
-      fmt::format("write scene.up: {} where that axis of the file points to the zenith", axis));
+      axis ? fmt::format("write scene.up: {} where that axis of the file points to the zenith",
+                         *axis)
+           : "write the axis that points to the zenith as up of each of scene.files");
 }
 
 namespace {

@@ -72,12 +72,34 @@ TEST_F(Doubts, SeeATownThatLiesOnItsSide) {
   EXPECT_FALSE(warns(study("files: [up_y.obj], up: y"), lies));
 }
 
+TEST_F(Doubts, NameTheAxisOfTheFile) {
+  write_town("up_z.obj", false);
+  write_town("up_y.obj", true);
+  EXPECT_TRUE(warns(study("files: [up_y.obj]"), "scene.up: y"));
+  EXPECT_TRUE(warns(study("files: [up_z.obj], up: y"), "scene.up: z"));
+  EXPECT_TRUE(warns(study("files: [up_z.obj], up: x"), "scene.up: z"));
+  EXPECT_TRUE(warns(study("files: [up_y.obj], up: x"), "scene.up: y"));
+  EXPECT_TRUE(warns(study("files: [{file: up_y.obj, up: z}, {file: up_z.obj, up: x}]"),
+                    "up of each of scene.files"));
+}
+
 TEST_F(Doubts, SeeLandThatStandsUpright) {
   folder_.write("land.obj",
                 "v 0 0 0\nv 9 0 0\nv 9 0 9\nv 0 0 9\nf 1 4 3 2\n"
                 "v 3 0 3\nv 5 0 3\nv 5 4 3\nv 3 4 3\nf 5 6 7 8\n");
   EXPECT_TRUE(warns(study("files: [land.obj], up: z"), lies));
   EXPECT_FALSE(warns(study("files: [land.obj], up: y"), lies));
+}
+
+/// A block and the land about it in one sheet, whose walls have more area than its level faces.
+TEST_F(Doubts, SeeHousesAndTheirLandInOneSheet) {
+  folder_.write("sheet.obj",
+                "v 3 0 6\nv 6 0 6\nv 6 0 3\nv 3 0 3\nv 3 12 6\nv 6 12 6\nv 6 12 3\nv 3 12 3\n"
+                "v 0 0 9\nv 9 0 9\nv 9 0 0\nv 0 0 0\n"
+                "f 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+                "f 9 10 2 1\nf 10 11 3 2\nf 11 12 4 3\nf 12 9 1 4\n");
+  EXPECT_TRUE(warns(study("files: [sheet.obj], up: z"), lies));
+  EXPECT_FALSE(warns(study("files: [sheet.obj], up: y"), lies));
 }
 
 TEST_F(Doubts, LeaveSlabsAndFacadesAlone) {
