@@ -176,12 +176,15 @@ std::string dataset_of(const std::string& quantity, bool of_sensors) {
 [[noreturn]] void refuse_quantity(const ResultReader& result, const std::string& quantity,
                                   bool of_sensors, const std::vector<std::string>& known) {
   const std::string what = of_sensors ? "sensors" : "groups of patches";
+  if (of_sensors && !result.has("sensor_position"))
+    throw InputError({result.path()}, "no series " + quantity + " of " + what,
+                     "the study has no sensors",
+                     "write the section sensors, or export --of facade, object or selection");
   const bool is_there = result.has(dataset_of(quantity, of_sensors));
-  const std::string why =
-      !of_sensors && quantity.ends_with("_se")       ? "a mean of standard errors is none of a mean"
-      : of_sensors && !result.has("sensor_position") ? "the study has no sensors"
-      : is_there                                     ? "totals have no intervals"
-                                                     : "none is stored";
+  const std::string why = !of_sensors && quantity.ends_with("_se")
+                              ? "a mean of standard errors is none of a mean"
+                          : is_there ? "totals have no intervals"
+                                     : "none is stored";
   throw InputError({result.path()}, "no series " + quantity + " of " + what, why,
                    known.empty() ? "run the study with output.series: [total]"
                                  : fmt::format("write series, or one of {}; output.series of the "

@@ -323,7 +323,8 @@ TEST(Export, SeriesOfPartsAreThoseThatAreStored) {
   rules.of = "sensor";
   EXPECT_NE(said("series").find("--facade house_1/south_1 with --of sensor"), std::string::npos);
   rules.parts = {};
-  EXPECT_NE(said("series").find("the study has no sensors"), std::string::npos);
+  EXPECT_NE(said("series").find("the study has no sensors); write the section sensors"),
+            std::string::npos);
   rules.of = "facade";
   rules.time = "2026-06-21T09:30Z";
   EXPECT_NE(said("irradiance").find("has all intervals"), std::string::npos);
