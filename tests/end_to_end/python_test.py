@@ -100,6 +100,7 @@ def expect_result(sunload, result):
     months = result.sunload.months()
     assert months.dims == ("month", "facade")
     assert np.allclose(months.sum("month"), result.facade_light_load, rtol=1e-5)
+    assert "months have light_load, " in raised(ValueError, lambda: result.sunload.months("power_load"))
     assert "water" in raised(ValueError, lambda: result.sunload.mean("light_load", surface_of="water"))
     assert "did you mean 'wall'" in raised(ValueError, lambda: result.sunload.mean("light_load", surface_of="walls"))
     roofs = result.sunload.mean("light_load", surface_of="roof")
@@ -110,6 +111,7 @@ def expect_result(sunload, result):
     assert south.sunload.mean("light_load").shape == ()
     assert "is a part (patch)" in raised(ValueError, south.sunload.facades)
     assert "did you mean 'light_load'" in raised(ValueError, lambda: result.sunload.mean("light_lode"))
+    assert "facade_of" not in raised(ValueError, lambda: result.sunload.mean("glare"))
     ax = result.sunload.plot_map()
     assert len(ax.collections[0].get_paths()) == int((result.patch_normal.values[:, 2] > 1e-6).sum())
     assert result.sunload.plot_map() is not ax

@@ -167,7 +167,7 @@ class Accessor:
         result = self._result
         if name in result and "patch" in result[name].dims:
             return result[name]
-        known = sorted(str(key) for key in result.variables if "patch" in result[key].dims)
+        known = sorted(str(key) for key in result.variables if "patch" in result[key].dims and not str(key).endswith("_of"))
         hint = nearest(name, known) or "there are " + ", ".join(known)
         if name in ("object_of", "facade_of", "surface_of"):
             hint = "a mesh given to sunload.solve has materials alone: name them, and choose by material_of"
@@ -179,9 +179,11 @@ class Accessor:
         output.totals: [month]; one of sun positions without dates cannot."""
         result, name = self._result, quantity + "_by_month"
         if name not in result:
+            known = sorted(str(key)[:-len("_by_month")] for key in result
+                           if str(key).endswith("_by_month") and "patch" in result[key].dims)
             raise ValueError(f"{self.path}: has no {name}; " + (
                 "its suns have no dates (period.positions)" if result.attrs.get("time_is_synthetic", 0) else
-                "write output: {totals: [month]} and run it again"))
+                "months have " + ", ".join(known) if known else "write output: {totals: [month]} and run it again"))
         facade, area = result["patch_facade"].values.astype(int), result["patch_area"].values
         values, count = result[name].values, result.sizes["facade"]
         counts = facade >= 0
