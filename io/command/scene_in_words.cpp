@@ -99,8 +99,9 @@ std::string ground_text(const GroundReport& g) {
   if (!g.worst.empty() && std::abs(g.worst.front().gap_m) > touching_m)
     text += "\n            farthest: " + gaps_text(g.worst, most);
   if (!g.hovering.empty())
-    text += fmt::format("\n            {} hover, too far from the feet beside them: {}",
-                        g.hovering.size(), gaps_text(g.hovering, most));
+    text +=
+        fmt::format("\n            {} hover (-: are buried), too far from the feet beside them: {}",
+                    g.hovering.size(), gaps_text(g.hovering, most));
   return text + "\n";
 }
 

@@ -10,6 +10,7 @@
 
 #include "geo/base/check.h"
 #include "geo/mesh/covered.h"
+#include "geo/time/period_parts.h"
 #include "io/plan/material_assign.h"
 #include "io/plan/seasons_of_plan.h"
 #include "io/plan/weather_albedo.h"
@@ -103,6 +104,18 @@ void warn_of_absent(const std::vector<SeasonStudy>& seasons, const std::vector<M
       warnings.push_back(
           message(season.where, "season '" + season.name + "' holds in no interval of the period",
                   "its materials are never used", "dates without a year hold in every year"));
+}
+
+/// Totals by season are of the calendar, whatever the study calls a winter.
+void warn_of_calendar_names(const Study& study, std::vector<std::string>& warnings) {
+  const auto& totals = study.output.totals;
+  if (!totals || std::ranges::find(*totals, PartKind::season) == totals->end()) return;
+  for (const SeasonStudy& season : study.seasons)
+    if (std::ranges::find(season_names, season.name) != season_names.end())
+      warnings.push_back(
+          message(season.where, "season '" + season.name + "' is called like one of the calendar",
+                  "totals by season are of whole months, and --season chooses the study's own",
+                  "give it another name"));
 }
 
 /// Numbers of the sets whose scenes are the same become one; the others move up.
@@ -254,6 +267,7 @@ std::vector<SeasonStretch> SceneSeasons::stretches(std::size_t first, std::size_
 
 SceneSeasons take_seasons(const Study& study, const LightSeries& light, BuiltScene& built) {
   SceneSeasons seasons;
+  if (!light.times_are_synthetic) warn_of_calendar_names(study, built.warnings);
   const auto matter = seasons_that_matter(study);
   const bool by_albedo = has_material_of_weather(study);
   if ((matter.empty() && !by_albedo) || light.times_are_synthetic) return seasons;

@@ -53,7 +53,8 @@ Holds season_holds(const std::string& text, double latitude_deg, const OwnSeason
   const auto name = std::find(season_names.begin(), season_names.end(), text);
   if (name == season_names.end()) {
     std::vector<std::string> known = own.names;
-    known.insert(known.end(), season_names.begin(), season_names.end());
+    for (const char* calendar : season_names)
+      if (!own.has(calendar)) known.emplace_back(calendar);
     // Steps of a series that lie in several seasons leave the result without the study's own.
     refuse("season", text,
            fmt::format("{}{}", fmt::join(known, ", "),

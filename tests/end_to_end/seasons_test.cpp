@@ -340,6 +340,21 @@ TEST_F(Seasons, ThatChangeNothingAreNone) {
       << past.out << past.err;
 }
 
+TEST_F(Seasons, ThatAreCalledLikeThoseOfTheCalendarAreTold) {
+  const std::string more = "seasons: {thin: [6, 7], winter: [11-15, 03-15]}\n";
+  const auto said = [&](const std::string& name, const std::string& totals) {
+    std::string days = three_season_days;
+    days.replace(days.find("month, hour_of_day"), std::string("month, hour_of_day").size(), totals);
+    folder_.write(name + ".yaml", study(name, of_seasons, more, days));
+    const Ran ran = program(folder_, {"check", name + ".yaml"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.out + ran.err;
+  };
+  const std::string told = "season 'winter' is called like one of the calendar";
+  EXPECT_NE(said("both", "season").find(told), std::string::npos);
+  EXPECT_EQ(said("own", "month").find(told), std::string::npos);
+}
+
 /// Whether anything of it changes a material or not.
 TEST_F(Seasons, OfEveryIntervalAreInTheResult) {
   const std::string more =
