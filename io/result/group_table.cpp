@@ -297,11 +297,14 @@ void expect_own_kind(TableOf of, const NamedParts& parts) {
 
 GroupTable group_table(const ResultReader& result, TableOf of, const NamedParts& parts) {
   expect_own_kind(of, parts);
-  const auto rows = [&](const char* kind, const std::vector<std::string>& names,
+  const auto rows = [&](const std::string& kind, const std::vector<std::string>& names,
                         const std::vector<std::size_t>& chosen, const auto& values) {
+    const bool is_a_section = kind == "selections" || kind == "sensors";
     if (names.empty())
-      throw InputError({result.path()}, "the result has no " + std::string(kind),
-                       "there is nothing to list");
+      throw InputError(
+          {result.path()}, "the result has no " + kind,
+          is_a_section ? "its study has no section " + kind : "there is nothing to list",
+          is_a_section ? "write one and run the study again" : "");
     return chosen_rows(of, names, chosen, values(result), result.quantity());
   };
   switch (of) {
@@ -320,13 +323,12 @@ GroupTable group_table(const ResultReader& result, TableOf of, const NamedParts&
                   [&](const ResultReader& r) { return all.values(r); });
     }
     case TableOf::selections:
-      return rows("selections (the study has no section selections)", selection_names(result),
-                  chosen_selections(result, parts), of_selections);
+      return rows("selections", selection_names(result), chosen_selections(result, parts),
+                  of_selections);
     case TableOf::sensors:
       break;
   }
-  return rows("sensors (the study has no section sensors)", sensor_names(result),
-              chosen_sensors(result, parts), of_sensors);
+  return rows("sensors", sensor_names(result), chosen_sensors(result, parts), of_sensors);
 }
 
 std::string group_table_csv(const GroupTable& table) {

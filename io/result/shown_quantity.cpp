@@ -107,8 +107,13 @@ ShownQuantity shown_quantity(const ResultReader& result, const std::string& data
   if (is_radiance(result, dataset)) return shown_radiance(result, time);
   ShownQuantity s;
   s.is_series = is_one_of(patch_datasets(result, PatchDatasets::series), dataset);
-  if (!s.is_series && !is_one_of(patch_datasets(result, PatchDatasets::totals), dataset))
-    throw unknown_quantity(result, dataset, shown_names(result), {});
+  if (!s.is_series && !is_one_of(patch_datasets(result, PatchDatasets::totals), dataset)) {
+    const bool is_meant =
+        find_result_variable(dataset) != nullptr || dataset.starts_with(measure_prefix);
+    throw unknown_quantity(
+        result, dataset, shown_names(result),
+        is_meant && result.chosen().any() ? "it is not known of " + result.chosen().words() : "");
+  }
   s.dataset = dataset;
   s.name = name_in_words(dataset);
   s.stored_units = result.units(dataset);

@@ -11,6 +11,7 @@
 #include "io/report/compare.h"
 #include "io/result/patches_csv.h"
 #include "io/result/shown_quantity.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/result_change.h"
 #include "tests/support/small_result.h"
 #include "tests/support/work_folder.h"
@@ -165,6 +166,8 @@ TEST(CompareQuantity, APartOfThePeriodHasWhatIsKnownOfIt) {
   EXPECT_EQ(compare_results(base, variant).rows.front().difference_kwh_m2, 0);
   EXPECT_TRUE(has(refusal(base, variant, "sun_hours"),
                   "(it is not known of hours 11-12); choose one of light_load"));
+  const std::string shown = test::refusal_of([&] { shown_quantity(base, "sun_hours", ""); });
+  EXPECT_TRUE(has(shown, "(it is not known of hours 11-12); choose one of")) << shown;
 }
 
 /// Hours by the measure: the house's walls have them, house_1 fewer in the variant.

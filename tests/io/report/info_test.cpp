@@ -14,6 +14,7 @@
 #include "io/base/text.h"
 #include "io/result/shown_quantity.h"
 #include "io/result/time.h"
+#include "tests/support/refusal_of.h"
 #include "tests/support/small_result.h"
 
 namespace sunload {
@@ -153,7 +154,12 @@ TEST(InfoTables, PatternsChooseRowsInTheOrderOfTheFile) {
   EXPECT_EQ(group_table(result, TableOf::facades, parts).names,
             (std::vector<std::string>{"house_1/south_1", "house_2/north_1", "house_2/south_1"}));
   EXPECT_THROW(group_table(result, TableOf::objects, parts), InputError);
-  EXPECT_THROW(group_table(result, TableOf::sensors, {}), InputError);
+  for (const auto& [table, section] :
+       {std::pair{TableOf::sensors, "sensors"}, {TableOf::selections, "selections"}})
+    EXPECT_NE(test::refusal_of([&] { group_table(result, table, {}); })
+                  .find(std::string("no ") + section + " (its study has no section " + section +
+                        "); write one"),
+              std::string::npos);
   // 2 × 8 triangles of the wall, and of the patches of an object all.
   EXPECT_EQ(chosen_patches(result, {{"house_1/south_1"}, {}, {}}).size(), 8u);
   EXPECT_EQ(chosen_patches(result, {{"house_1/south_1"}, {"house_1"}, {}}).size(), 40u);
