@@ -17,7 +17,7 @@ using Kind = YamlNode::Kind;
 using Axis = std::vector<MatrixValue>;
 using Path = std::vector<MatrixValue::Part>;
 
-constexpr std::size_t most_variants = 1000;
+constexpr std::size_t most_variants = 3000;
 
 /// `scene.edit[2].raise.storeys`; empty where it is none.
 Path path_of(const std::string& text) {
@@ -129,7 +129,7 @@ YamlTree put(const YamlTree& node, const MatrixValue& value, std::size_t depth,
 
 }  // namespace
 
-std::vector<Axis> read_matrix(YamlMap& root) {
+std::vector<Axis> read_matrix(YamlMap& root, std::size_t variants) {
   root.reading().keys.insert("matrix.*");
   const YamlTree matrix = root.tree("matrix");
   if (!matrix) return {};
@@ -152,14 +152,15 @@ std::vector<Axis> read_matrix(YamlMap& root) {
   }
   const auto names = short_names(paths);
   std::vector<Axis> axes;
-  std::size_t count = 1;
+  std::size_t count = variants;
   for (std::size_t a = 0; a < paths.size(); ++a) {
     Axis axis;
     read_axis(*entries[a], paths[a], names[a], axis, root.reading());
     if (axis.empty()) continue;
     count *= axis.size();
     if (count > most_variants) {
-      root.problem("matrix", fmt::format("makes more than {} variants", most_variants));
+      root.problem("matrix", fmt::format("makes more than {} variants", most_variants),
+                   "each of them is a run of its own", "leave values out, or divide the study");
       return {};
     }
     axes.push_back(std::move(axis));

@@ -24,8 +24,9 @@ struct MatrixValue {
   std::string label;  ///< part of the variant's name: `mirror-0.5`, or the study's own word
 };
 
-/// The values of every key, in the order of the file; problems are reported.
-std::vector<std::vector<MatrixValue>> read_matrix(YamlMap& root);
+/// The values of every key, in the order of the file, for so many variants that the study writes;
+/// problems are reported.
+std::vector<std::vector<MatrixValue>> read_matrix(YamlMap& root, std::size_t variants);
 
 /// Every combination, the last key varying fastest; a single empty one without keys.
 std::vector<std::vector<MatrixValue>> combinations(

@@ -181,7 +181,7 @@ std::vector<Variant> read_variants(YamlMap& root) {
 std::vector<Variant> read_all_variants(YamlMap& root) {
   const bool are_named = root.has("variants");
   std::vector<Variant> written = read_variants(root);
-  const auto axes = read_matrix(root);
+  const auto axes = read_matrix(root, written.size());
   if (axes.empty()) return written;
   for (const auto& axis : axes) refuse_common_keys(axis.front(), root.reading());
   std::vector<Variant> all;

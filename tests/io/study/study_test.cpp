@@ -798,6 +798,16 @@ TEST(StudyMatrix, RefusesWhatMakesNoVariants) {
   wrong("{site.latitude_deg: [1, 2]}", "a variant cannot change site.latitude_deg");
   wrong("{output.folder: [a]}", "a variant cannot change output.folder");
   wrong("{name: [a]}", "a variant cannot change name");
+  const std::string part =
+      "matrix: makes more than 3000 variants (each of them is a run of its own)";
+  std::string many = "1", named = "{name: v1}";
+  for (int k = 2; k <= 60; ++k) {
+    many += ", " + std::to_string(k);
+    named += ", {name: v" + std::to_string(k) + "}";
+  }
+  wrong("{solver.seed: [" + many + "], solver.bounces: [" + many + "]}", part);
+  expect_problem({{"matrix", "{solver.seed: [" + many + "]}"}, {"variants", "[" + named + "]"}},
+                 part);
 }
 
 // --- the schema ---------------------------------------------------------------------------
