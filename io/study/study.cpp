@@ -37,7 +37,7 @@ const std::map<std::string, std::string> common_sections{
     {"format", "it belongs to the file"},
     {"name", "it belongs to the file"},
     {"matrix", "a matrix makes variants"},
-    {"sun", "all variants have the same sun path, or they could not be compared"},
+    {"sun", "all variants follow the same sun, or they could not be compared"},
     {"sensors", "all variants are measured at the same points"},
     {"selections", "all variants have the same ones, or they could not be compared"},
     {"measures", "all variants are measured alike, or they could not be compared"},
