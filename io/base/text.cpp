@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 namespace sunload {
@@ -44,8 +45,24 @@ std::string csv_number(double value) {
   return std::isnan(value) ? std::string() : fmt::format("{:.9g}", value);
 }
 
+namespace {
+
+/// 7.723e+04 as 77230, and +1e+02 as +100.
+std::string without_exponent(std::string text) {
+  if (text.find("e+") == std::string::npos) return text;
+  const char* const format = text.front() == '+' ? "{:+.0f}" : "{:.0f}";
+  return fmt::format(fmt::runtime(format), std::strtod(text.c_str(), nullptr));
+}
+
+}  // namespace
+
+std::string number_text(double value, int digits) {
+  return without_exponent(fmt::format("{:.{}g}", value, digits));
+}
+
 std::string cell_text(double value, const char* format) {
-  return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(format), value);
+  if (std::isnan(value)) return "-";
+  return without_exponent(fmt::format(fmt::runtime(format), value));
 }
 
 std::string spaced(std::string name) {

@@ -14,7 +14,9 @@ std::string csv_text(const std::string& text);
 /// Nine digits: more than float values carry. Empty for NaN.
 std::string csv_number(double value);
 
-/// A number as `format` of fmt says; "-" for NaN.
+/// A number of so many significant digits; a large one is whole, without an exponent (77230).
+std::string number_text(double value, int digits);
+/// A number as `format` of fmt says, but for exponents as above; "-" for NaN.
 std::string cell_text(double value, const char* format);
 
 /// A name in words: "light_load" → "light load".

@@ -165,9 +165,10 @@ std::string analysis(const std::string& name, const std::vector<double>& values,
   const auto ratio = [](double a, double b) {
     return b == 0 ? std::string("-") : fmt::format("{:.3f}", a / b);
   };
-  return fmt::format("  {:<24}{:>10.4g} {:>10.4g} {:>10.4g} {:>9} {:>9} {:>9} {:>9} {:>9}\n", name,
-                     *least, mean, *largest, ratio(*least, mean), ratio(*least, *largest),
-                     ratio(mean, *least), ratio(*largest, *least), ratio(*largest, mean));
+  return fmt::format("  {:<24}{:>10} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9}\n", name,
+                     number_text(*least, 4), number_text(mean, 4), number_text(*largest, 4),
+                     ratio(*least, mean), ratio(*least, *largest), ratio(mean, *least),
+                     ratio(*largest, *least), ratio(*largest, mean));
 }
 
 std::string lighting_analysis(const ResultReader& result, const PatchGroups& groups,
@@ -199,9 +200,10 @@ std::string sensors(const ResultReader& result) {
   const auto [least, largest] = std::minmax_element(load.begin(), load.end());
   const double mean =
       std::accumulate(load.begin(), load.end(), 0.0) / static_cast<double>(load.size());
-  auto text = info_line(
-      "sensors", fmt::format("{}: light load {:.4g} … {:.4g} {}, mean {:.4g}", load.size(), *least,
-                             *largest, display_units(result.units("sensor_light_load")), mean));
+  auto text = info_line("sensors", fmt::format("{}: light load {} … {} {}, mean {}", load.size(),
+                                               number_text(*least, 4), number_text(*largest, 4),
+                                               display_units(result.units("sensor_light_load")),
+                                               number_text(mean, 4)));
   if (!result.has("sensor_light_load_se")) return text;
   const auto se = result.doubles("sensor_light_load_se");
   std::vector<double> relative, weight;
@@ -239,10 +241,11 @@ std::string parts_of_period(const ResultReader& result, const PatchGroups& group
           means.push_back(groups.means(rows.data() + first).front());
       }
       const double se = sample_mean(means).se;
-      text += fmt::format("  {:<16}{:>10.4g}{:>14.4g}{:>12.4g}{}\n", labels[part], hours[part],
-                          groups.means(result.row(load, part).data()).front(),
-                          groups.means(result.row(sun, part).data()).front(),
-                          std::isnan(se) ? std::string() : fmt::format("  load ± {:.2g}", se));
+      text +=
+          fmt::format("  {:<16}{:>10}{:>14}{:>12}{}\n", labels[part], number_text(hours[part], 4),
+                      number_text(groups.means(result.row(load, part).data()).front(), 4),
+                      number_text(groups.means(result.row(sun, part).data()).front(), 4),
+                      std::isnan(se) ? std::string() : "  load ± " + number_text(se, 2));
     }
   }
   return text;
@@ -259,8 +262,8 @@ std::string facades(const ResultReader& result, const PatchGroups& groups,
                    [&](std::size_t a, std::size_t b) { return mean[a] > mean[b]; });
   const auto words = [&](std::size_t g) {
     const double se = sample_mean(realizations[g]).se;
-    return fmt::format("{} {:.4g}{}", groups.groups()[g].name, mean[g],
-                       std::isnan(se) ? std::string() : fmt::format(" ± {:.2g}", se));
+    return groups.groups()[g].name + " " + number_text(mean[g], 4) +
+           (std::isnan(se) ? std::string() : " ± " + number_text(se, 2));
   };
   std::string best, worst;
   const std::size_t shown = std::min(facades_shown, order.size());

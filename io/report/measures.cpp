@@ -170,7 +170,7 @@ std::string measures_line(const ResultReader& result) {
     for (const MeasureRow& row : rows) {
       if (row.measure != name) continue;
       if (row.kind == "whole")
-        line += fmt::format(", mean {:.3g} {}", row.mean, display_units(words.units));
+        line += ", mean " + number_text(row.mean, 3) + " " + display_units(words.units);
       if (is_judged(row)) ++reached[row.kind][row.level];
     }
     if (!has_values(result, name)) line += ", no value";

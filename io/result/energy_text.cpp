@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geo/base/units.h"
+#include "io/base/text.h"
 #include "io/result/time.h"
 
 namespace sunload {
@@ -48,10 +49,11 @@ std::string warning_of_few_lines(const ResultReader& result) {
 std::string estimated_line(const ResultReader& result, double in) {
   const double estimated = ledger_kwh(result, "estimated");
   if (estimated == 0) return {};
-  return info_line("",
-                   fmt::format("estimated {:.3g} ({:.2g} % of in): what surfaces receive of light "
-                               "that is not followed, part of the irradiance",
-                               estimated, in == 0 ? 0 : estimated / in * 100));
+  return info_line(
+      "", fmt::format("estimated {} ({:.2g} % of in): what surfaces receive of light that is "
+                      "not followed, part of the {}",
+                      number_text(estimated, 3), in == 0 ? 0 : estimated / in * 100,
+                      dataset_name("irradiance", result.quantity())));
 }
 
 /// The ledger of what the reader shows; `label` names its first line.
@@ -63,14 +65,16 @@ std::string ledger_lines(const ResultReader& result, const std::string& label) {
     const double energy = ledger_kwh(result, term);
     in += energy;
     if (energy != 0)
-      in_words += fmt::format("{}{} {:.5g}", in_words.empty() ? "" : " + ", term, energy);
+      in_words +=
+          fmt::format("{}{} {}", in_words.empty() ? "" : " + ", term, number_text(energy, 5));
   }
   for (const char* term : {"absorbed", "transmitted", "escaped", "unshot"}) {
     const double energy = ledger_kwh(result, term);
     out += energy;
     // What is less is what the rounding of sums leaves of a difference.
     if (std::abs(energy) > rounding * in)
-      out_words += fmt::format("{}{} {:.5g}", out_words.empty() ? "" : " + ", term, energy);
+      out_words +=
+          fmt::format("{}{} {}", out_words.empty() ? "" : " + ", term, number_text(energy, 5));
   }
   if (in == 0 && out == 0) return info_line(label.c_str(), "none");
   const double residual = ledger_kwh(result, "residual");
@@ -80,17 +84,18 @@ std::string ledger_lines(const ResultReader& result, const std::string& label) {
           ? result.number_attribute("power_residual", unit_names("time_sum_se_kwh", quantity))
           : std::nan("");
   const std::string error =
-      std::isnan(error_kwh) ? std::string() : fmt::format(" ± {:.2g}", error_kwh);
+      std::isnan(error_kwh) ? std::string() : " ± " + number_text(error_kwh, 2);
   // Of the mean of bands.
   const double bias =
       result.band() ? std::nan("")
                     : result.number_attribute(unit_names("residual_reuse_bias_kwh", quantity));
-  const std::string reuse =
-      std::isnan(bias) ? std::string() : fmt::format(", of which {:.2g} by reuse of lines", bias);
-  return info_line(label.c_str(), fmt::format("in {:.6g} = {}", in, in_words)) +
-         info_line("", fmt::format("out {:.6g} = {}", out, out_words)) +
-         info_line("", fmt::format("residual {:.3g}{} ({:.2g} % of in){}", residual, error,
-                                   in == 0 ? 0 : residual / in * 100, reuse)) +
+  const std::string reuse = std::isnan(bias)
+                                ? std::string()
+                                : ", of which " + number_text(bias, 2) + " by reuse of lines";
+  return info_line(label.c_str(), fmt::format("in {} = {}", number_text(in, 6), in_words)) +
+         info_line("", fmt::format("out {} = {}", number_text(out, 6), out_words)) +
+         info_line("", fmt::format("residual {}{} ({:.2g} % of in){}", number_text(residual, 3),
+                                   error, in == 0 ? 0 : residual / in * 100, reuse)) +
          warning_of_few_lines(result) + estimated_line(result, in);
 }
 

@@ -198,6 +198,12 @@ def is_number(text):
     return True
 
 
+def number(value, digits):
+    """So many significant digits; large numbers are whole, without an exponent."""
+    text = f"{value:.{digits}g}"
+    return f"{float(text):.0f}" if "e+" in text else text
+
+
 def csv_cell(cell):
     """Names that spreadsheets would compute get an apostrophe before them, as those of `sunload export` do."""
     if isinstance(cell, float):

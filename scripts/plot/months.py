@@ -132,7 +132,7 @@ def draw(result, arguments):
         if whiskers is not None:
             axes.errorbar(range(len(months)), sums[:, :, k].sum(axis=0), whiskers[:, k], fmt="none", ecolor="black",
                           elinewidth=0.8, capsize=2)
-        axes.set_title(f"{drawing.shortened(targets[k].label, 80) if across == 1 else drawing.shortened(targets[k].name, 32)}: {totals[k]:.4g} {units}")
+        axes.set_title(f"{drawing.shortened(targets[k].label, 80) if across == 1 else drawing.shortened(targets[k].name, 32)}: {drawing.number(totals[k], 4)} {units}")
     # One scale for all panels, which the highest bar of all decides.
     tops = sums.sum(axis=0) + (0 if whiskers is None else np.nan_to_num(whiskers))
     grid[0, 0].set_ylim(0, 1.05 * max(np.nanmax(tops), 1e-12))

@@ -71,12 +71,13 @@ def facts(result):
                      f"{result.attribute('longitude_deg', np.nan):.4f}°; scene +y points to "
                      f"{sun_path.scene_north_deg(result) % 360:.1f}° from north"),
             ("patches", f"{len(area)}, {area.sum():.0f} m²"),
-            ("least … largest load of a patch", f"{load.min():.4g} … {load.max():.4g} {units}")]
+            ("least … largest load of a patch", f"{drawing.number(load.min(), 4)} … {drawing.number(load.max(), 4)} {units}")]
     if result.has("power_residual"):
         residual = result.file["power_residual"].attrs
-        if "time_sum_kwh" in residual:
-            rows.append(("energy in − out", f"{residual['time_sum_kwh']:.3g} ± "
-                                            f"{residual.get('time_sum_se_kwh', np.nan):.2g} kWh"))
+        for what, key, unit in (("energy", "kwh", "kWh"), ("light", "klm_h", "klm h")):
+            if f"time_sum_{key}" in residual:
+                rows.append((f"{what} in − out", f"{drawing.number(residual[f'time_sum_{key}'], 3)} ± "
+                                                 f"{drawing.number(residual.get(f'time_sum_se_{key}', np.nan), 2)} {unit}"))
     if result.attribute("warnings"):
         rows.append(("warnings", result.attribute("warnings")))
     return rows + [("made by", result.attribute("source")), ("content hash", result.attribute("study_sha256")[:16])]
@@ -96,9 +97,9 @@ def load_rows(results, program):
                     cells.append("none")
                     continue
                 k, count = one.place[name], len(one.realizations)
-                error = f" ± {one.realizations[:, k].std(ddof=1) / np.sqrt(count):.2g}" if count > 1 else ""
+                error = f" ± {drawing.number(one.realizations[:, k].std(ddof=1) / np.sqrt(count), 2)}" if count > 1 else ""
                 percent = change.get((by, name))
-                cells.append(f"{one.load[k]:.4g}{error} {units}"
+                cells.append(f"{drawing.number(one.load[k], 4)}{error} {units}"
                              + (f" ({percent:+.2f} % where both are)" if percent is not None else ""))
             yield f"mean load, {'all surfaces' if by == 'whole' else name}", cells
 

@@ -617,6 +617,12 @@ def test_signs_and_offsets(plots, sunload, folder):
     assert offset.utcoffset(None) == datetime.timedelta(hours=-3, minutes=-30) and reading.fixed_offset("UTC") is None
 
 
+def test_numbers():
+    import drawing
+    assert [drawing.number(value, digits) for value, digits in ((77234.5, 4), (99.7, 2), (-1.2345e6, 3), (0.0321, 2))] == \
+        ["77230", "100", "-1230000", "0.032"]
+
+
 def test_wrong_input(plots, path, folder):
     empty = os.path.join(folder, "empty")
     os.makedirs(empty)
@@ -666,6 +672,7 @@ def test(sunload, source, folder):
     test_months_of_some_parts(plots, sunload, folder)
     test_months_of_rounded_series(sunload, folder)
     test_series_without_dates(sunload, folder)
+    test_numbers()
     test_months_of_days(sunload, folder)
     test_facade_map_drawing(path)
     test_facade_map_of_tower(sunload, folder)

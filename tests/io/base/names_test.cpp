@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "io/base/text.h"
 
 namespace sunload {
@@ -57,6 +59,17 @@ TEST(CsvText, LeavesNumbersAndNamesAlone) {
     EXPECT_EQ(csv_text(text), text);
   EXPECT_EQ(csv_text("a,b"), "\"a,b\"");
   EXPECT_EQ(csv_number(-0.5), "-0.5");
+}
+
+TEST(NumberText, LeavesLargeNumbersWhole) {
+  EXPECT_EQ(number_text(77234.5, 4), "77230");
+  EXPECT_EQ(number_text(99.7, 2), "100");
+  EXPECT_EQ(number_text(-1.2345e9, 3), "-1230000000");
+  EXPECT_EQ(number_text(123.456, 4), "123.5");
+  EXPECT_EQ(number_text(3.21e-6, 2), "3.2e-06");
+  EXPECT_EQ(cell_text(93200, "{:+.4g}"), "+93200");
+  EXPECT_EQ(cell_text(123456, "{:+.4g}"), "+123500");
+  EXPECT_EQ(cell_text(std::nan(""), "{:.4g}"), "-");
 }
 
 }  // namespace
