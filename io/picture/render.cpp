@@ -15,6 +15,7 @@
 #include "io/base/file_aside.h"
 #include "io/base/output_target.h"
 #include "io/base/scene_colours.h"
+#include "io/base/text.h"
 #include "io/picture/animated_png.h"
 #include "io/picture/overview.h"
 #include "io/picture/render_bands.h"
@@ -216,7 +217,7 @@ class Renderer {
         *picture, title(result_) + (in_rgb ? "" : band_title(result_)),
         shown.name + (shown.when.empty() ? "" : ", " + shown.when) + named_in_words(rules_.parts) +
             seen_from_in_words(shown) +
-            (in_rgb ? fmt::format(", in colour, white: {:.4g} {}", largest, shown.units) : "") +
+            (in_rgb ? ", in colour, white: " + number_text(largest, 4) + " " + shown.units : "") +
             (result_.is_place_map() ? "; green: the place itself" : "") + no_value_in_words(shown) +
             nothing_in_words(shown));
     const auto marked_where = [&](const auto& is_beyond) {

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/base/text.h"
+
 namespace sunload {
 namespace {
 
@@ -77,7 +79,7 @@ std::vector<std::pair<double, std::string>> ticks_of(const Legend& legend) {
   std::vector<std::pair<double, std::string>> named;
   if (legend.scale == ColourScale::logarithmic) {
     for (const double value : logarithmic_ticks(legend.least, legend.largest))
-      named.emplace_back(value, fmt::format("{:.4g}", value));
+      named.emplace_back(value, number_text(value, 4));
     return named;
   }
   const bool has_two_sides = legend.least < 0;
@@ -92,7 +94,7 @@ std::vector<std::pair<double, std::string>> ticks_of(const Legend& legend) {
   const double rest = 1 - ticks.values.back() / legend.largest;
   if (rest > rounding && rest < too_near && ticks.values.size() > 1) ticks.values.pop_back();
   for (const double value : ticks.values) name(value, tick_text(value, ticks.decimals));
-  if (rest > rounding) name(legend.largest, fmt::format("{:.4g}", legend.largest));
+  if (rest > rounding) name(legend.largest, number_text(legend.largest, 4));
   return named;
 }
 
