@@ -19,7 +19,7 @@ std::string range_words(const MeasureRule& rule) {
   std::string text;
   const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
   if (rule.day)
-    add(rule.day->first == 0 ? "`date`"
+    add(rule.day->first == 0 ? "`date` (needed)"
                              : fmt::format("`date` ({}-{:02})", rule.day->first, rule.day->second));
   for (const RuleKey& key : rule.keys)
     add("`" + key.key + "`" +
