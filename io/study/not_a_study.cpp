@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class FileKind { unknown, city, mesh, plan, weather, result };
+enum class FileKind { unknown, city, mesh, plan, weather, table, result };
 
 std::string first_bytes(const std::string& path) {
   constexpr std::size_t enough = 64 * 1024;  // CityJSON may name its type behind its metadata
@@ -57,6 +57,7 @@ FileKind kind_of(const std::string& path, std::string_view head) {
   if (head.starts_with("#VRML") || head.starts_with("glTF") || head.starts_with("ply\n") ||
       head.starts_with("ply\r"))
     return FileKind::mesh;
+  if (ends_with({".csv", ".tsv", ".pts"})) return FileKind::table;
   return kind_of_name(path);
 }
 
@@ -97,6 +98,12 @@ void refuse_other_files(const std::string& path) {
     case FileKind::weather:
       throw InputError({path}, "is a weather file, not a study", "a study names its weather",
                        study_with("", "weather, weather: " + name, "builtin: {name: street}"));
+    case FileKind::table:
+      throw InputError(
+          {path}, "is a table, not a study",
+          "a study names weather as light.weather, points as sensors.file, far hills as "
+          "site.horizon",
+          study_with(place, "clear_sky", "builtin: {name: street}"));
     case FileKind::result:
       throw InputError({path}, "is a file of results, not a study", "",
                        "`sunload info` shows it; the study it came from is in its attributes");

@@ -25,6 +25,8 @@ TEST(NotAStudy, SaysWhatAFileIsAndHowToBegin) {
         Case{"room", "#VRML V2.0 utf8\n", "is a model"},
         Case{"WINTER.WEA", "place Berlin\n", "weather file"},
         Case{"berlin.epw", "LOCATION,Berlin\n", "weather file"},
+        Case{"year.csv", "time;dni_w_m2\n", "is a table"},
+        Case{"grid.pts", "0 0 1 0 0 1\n", "is a table"},
         Case{"street.h5", "\x89HDF\r\n\x1a\n", "file of results"}}) {
     const std::string told = refusal_of([&] { read_study(folder.write(c.name, c.text)); });
     EXPECT_NE(told.find(c.what), std::string::npos) << c.name << ": " << told;
