@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <optional>
 
 #include "geo/mesh/box_tree.h"
@@ -23,8 +22,7 @@ constexpr double least_cosine = 1e-6;
 constexpr double least_seen = 1e-9;
 /// Groups that are asked together whether light comes near, such neighbours for a task of a thread,
 /// and mirrored suns for which there is memory at a time.
-constexpr std::size_t groups_together = GroupLanes::most, neighbours_per_task = 2,
-                      fewest_at_once = 16;
+constexpr std::size_t groups_together = 8, neighbours_per_task = 2, fewest_at_once = 16;
 
 /// Planes of mirrors whose light may come near a place and what lies about it.
 void find_near(const LitMirrors& mirrors, Vec3 centre, double radius_m,
@@ -47,37 +45,24 @@ class MirroredShares::GroupWork {
  public:
   GroupWork(const MirroredShares& mirrored, Columns& out) : m_(mirrored), out_(out) {}
 
-  /// Neighbours in the light of sun k by mirrors, as far as it may come near them.
-  void tell(const Neighbours& of, const LitMirrors& mirrors, std::size_t k) {
-    find_near(mirrors, of.centre, of.radius_m, near_);
-    if (near_.empty()) return;
-    of.lanes.see(mirrors.frame(), seen_);
-    for (auto& planes : planes_of_) planes.clear();
-    std::uint32_t any = 0;
-    for (const LitPlane* plane : near_) {
-      const std::uint32_t meeting =
-          of.lanes.meeting(seen_, plane->box(), plane->before(), least_cosine);
-      for (auto left = meeting; left != 0; left &= left - 1)
-        planes_of_[static_cast<std::size_t>(std::countr_zero(left))].push_back(plane);
-      any |= meeting;
-    }
-    for (; any != 0; any &= any - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(any));
-      tell(m_.shares().groups()[of.begin + lane], mirrors.frame(), planes_of_[lane],
-           of.lanes.corners(lane), k);
-    }
-  }
-
- private:
-  /// `planes`: of the mirrors, those whose light may meet the group.
+  /// `planes`: of the mirrors, those whose light may come near. Of sun k.
   void tell(const LitShares::Group& group, const ViewFrame& frame,
-            std::span<const LitPlane* const> planes, const std::array<Vec3, 3>& corners,
-            std::size_t k) {
+            std::span<const LitPlane* const> planes, std::size_t k) {
     const double cos_theta = dot(group.normal, frame.to_sun);
+    if (cos_theta <= least_cosine) return;
+    const Hierarchy& mesh = m_.shares().hierarchy();
+    const Vec3 lift = group.normal * m_.shares().offset_m();
+    std::array<Vec3, 3> corners;
+    ViewBox box;
+    for (std::size_t c = 0; c < 3; ++c) {
+      corners[c] = mesh.vertices()[static_cast<std::size_t>(group.vertices[c])] + lift;
+      box.include({dot(corners[c], frame.x), dot(corners[c], frame.y)});
+    }
     group_ = &group;
     frame_ = &frame;
     patches_.clear();
-    for (const LitPlane* plane : planes) look_into(*plane, corners);
+    for (const LitPlane* plane : planes)
+      if (!box.is_apart_from(plane->box(), 0, 0)) look_into(*plane, corners);
     for (std::size_t i = 0; i < patches_.size(); ++i) {
       float& of_patch = out_[m_.shares().patches_of(group)[i] * block_width + k];
       const auto& [polygon, patch_box, area, light, is_told] = patches_[i];
@@ -88,6 +73,7 @@ class MirroredShares::GroupWork {
     }
   }
 
+ private:
   struct Patch {
     ViewPolygon polygon;
     ViewBox box;
@@ -184,11 +170,7 @@ class MirroredShares::GroupWork {
   const MirroredShares& m_;
   Columns& out_;
   LitArea area_;
-  // Neighbours and the mirrored sun at hand:
-  std::vector<const LitPlane*> near_;
-  GroupLanes::Seen seen_;
-  std::array<std::vector<const LitPlane*>, GroupLanes::most> planes_of_;  ///< that a group meets
-  // A group of them:
+  // The group and the mirrored sun at hand:
   const LitShares::Group* group_ = nullptr;
   const ViewFrame* frame_ = nullptr;
   std::vector<Patch> patches_;  ///< once light comes near
@@ -216,11 +198,7 @@ void MirroredShares::find_neighbours() {
     for (std::size_t g = begin; g < end; ++g)
       for (const auto vertex : groups[g].vertices)
         include(box, vertices[static_cast<std::size_t>(vertex)]);
-    neighbours_.push_back({begin,
-                           end,
-                           centre_of(box),
-                           norm(half_of(box)) + shares_.offset_m(),
-                           {shares_, std::span(groups).subspan(begin, end - begin)}});
+    neighbours_.push_back({begin, end, centre_of(box), norm(half_of(box)) + shares_.offset_m()});
   }
 }
 
@@ -246,9 +224,15 @@ Columns MirroredShares::of(std::span<const IntervalLight> block,
     parallel_chunks(neighbours_.size(), neighbours_per_task,
                     [&](std::size_t begin, std::size_t end) {
                       GroupWork work(*this, light);
+                      std::vector<const LitPlane*> near;
                       for (std::size_t i = 0; i < lit.size(); ++i)
-                        for (std::size_t n = begin; n < end; ++n)
-                          work.tell(neighbours_[n], *lit[i], all[first + i].k);
+                        for (std::size_t n = begin; n < end; ++n) {
+                          const Neighbours& of = neighbours_[n];
+                          find_near(*lit[i], of.centre, of.radius_m, near);
+                          if (near.empty()) continue;
+                          for (std::size_t g = of.begin; g < of.end; ++g)
+                            work.tell(shares_.groups()[g], lit[i]->frame(), near, all[first + i].k);
+                        }
                     });
   }
   return light;

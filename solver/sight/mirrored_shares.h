@@ -14,7 +14,6 @@
 #include <span>
 #include <vector>
 
-#include "solver/sight/group_lanes.h"
 #include "solver/sight/lit_area.h"
 #include "solver/sight/lit_mirrors.h"
 #include "solver/sight/lit_shares.h"
@@ -50,7 +49,6 @@ class MirroredShares {
     std::size_t begin, end;
     Vec3 centre;
     double radius_m;
-    GroupLanes lanes;
   };
   std::vector<Neighbours> neighbours_;
 };
