@@ -263,16 +263,15 @@ std::optional<double> height_in_the_air(const PolygonModel& model, const Box& lo
   const Vec3 middle = centre_of(lower_face);
   const auto land = standing_height(model, {middle.x, middle.y});
   if (!land || lower_face.low.z - *land <= highest_step_m) return {};
+  Box there = upright(lower_face);
+  there.low.z = lower_face.low.z - gap_m;
   for (std::size_t p = 0; p < model.polygon_count(); ++p) {
     const std::string& kind = kind_of(model, model.facts[p].object.index());
     if (is_land(kind) || may_hover(kind) || model.facts[p].surface == Surface::ground) continue;
     const LooseFace face = face_of(model, p);
     Box box;
     for (const Vec3 corner : face.rings[0]) include(box, corner);
-    if (box.high.z >= lower_face.low.z - gap_m && box.low.x <= lower_face.high.x &&
-        box.high.x >= lower_face.low.x && box.low.y <= lower_face.high.y &&
-        box.high.y >= lower_face.low.y)
-      return {};
+    if (meet(box, there)) return {};
   }
   return lower_face.low.z - *land;
 }

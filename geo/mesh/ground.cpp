@@ -429,6 +429,14 @@ class GroundMaker {
   std::int32_t vertex_base_ = 0;
 };
 
+/// Of what has no foot.
+Standing::Hangs hangs_by_type(const std::string& kind) {
+  if (is_building(kind)) return Standing::Hangs::no;
+  return kind.starts_with("Bridge") || kind.find("Installation") != kind.npos
+             ? Standing::Hangs::surely
+             : Standing::Hangs::perhaps;
+}
+
 }  // namespace
 
 Standing standing_on(const Mesh& mesh, const Bodies& bodies, const std::vector<Foot>& feet,
@@ -436,17 +444,13 @@ Standing standing_on(const Mesh& mesh, const Bodies& bodies, const std::vector<F
   Standing standing;
   const std::size_t body_count = bodies.bodies.size();
   standing.on_body.assign(body_count, 0);
-  standing.hangs.assign(body_count, 0);
-  standing.may_hang.assign(body_count, 0);
-  for (std::size_t b = 0; b < body_count; ++b) {
-    const std::string& kind = mesh.object_kinds[bodies.bodies[b].object.index()];
-    standing.hangs[b] = kind.starts_with("Bridge") || kind.find("Installation") != kind.npos;
-    standing.may_hang[b] = !is_building(kind);
-  }
+  for (const Body& body : bodies.bodies)
+    standing.hangs.push_back(hangs_by_type(mesh.object_kinds[body.object.index()]));
   for (const Foot& foot : feet) {
     const auto b = static_cast<std::size_t>(foot.body);
     standing.on_body[b] = foot.stance == Stance::body;
-    standing.hangs[b] = standing.may_hang[b] = foot.stance == Stance::hovering;
+    standing.hangs[b] =
+        foot.stance == Stance::hovering ? Standing::Hangs::surely : Standing::Hangs::no;
   }
   if (!rules) return standing;
   standing.level_z = level_z(mesh, feet, *rules);

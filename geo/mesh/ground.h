@@ -63,9 +63,10 @@ struct Standing {
   std::optional<double> level_z;        ///< of a plate, in the mesh's z
   std::vector<std::uint8_t> on_ground;  ///< per body: the ground will go through its feet
   std::vector<std::uint8_t> on_body;    ///< per body: it stands on another one, perhaps in part
-  /// Per body of a city: it hovers, or is a bridge or an installation, as balconies are.
-  std::vector<std::uint8_t> hangs;
-  std::vector<std::uint8_t> may_hang;  ///< or has no foot and is no building: a canopy, a plate
+  /// surely: what hovers, and bridges and installations, such as balconies; perhaps: what is no
+  /// building and has no foot, a canopy or a plate.
+  enum class Hangs : std::uint8_t { no, perhaps, surely };
+  std::vector<Hangs> hangs;  ///< per body, of cities
 };
 /// Without rules nobody stands on a ground.
 Standing standing_on(const Mesh& mesh, const Bodies& bodies, const std::vector<Foot>& feet,

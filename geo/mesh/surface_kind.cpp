@@ -91,7 +91,7 @@ class Decision {
   bool may_hang(std::size_t t) const {
     const auto b = bodies_.triangle_body[t];
     return kind_ == SceneKind::city && b >= 0 &&
-           standing_.may_hang[static_cast<std::size_t>(b)] != 0;
+           standing_.hangs[static_cast<std::size_t>(b)] != Standing::Hangs::no;
   }
 
   Surface surface(std::size_t t, Slope s) {
@@ -136,19 +136,18 @@ class Decision {
       const auto b = bodies_.triangle_body[t];
       const bool is_on_feet =
           !standing_.on_ground.empty() && standing_.on_ground[static_cast<std::size_t>(b)] != 0;
-      const Below below = below_of(t, b, supports);
-      if (is_on_feet || below == Below::touching || (below == Below::nothing && may_be_plate(b)))
+      if (is_on_feet || is_floor(below_of(t, b, supports), b))
         mesh_.triangle_surface[t] = Surface::floor;
     }
   }
 
-  /// Of a city: what nothing lies below may be its land.
-  bool may_be_plate(std::int32_t b) const {
-    const auto body = static_cast<std::size_t>(b);
-    return kind_ == SceneKind::city && standing_.may_hang[body] != 0 && standing_.hangs[body] == 0;
-  }
-
   enum class Below { touching, apart, nothing };
+  /// Of a city: what nothing lies below may be its land.
+  bool is_floor(Below below, std::int32_t b) const {
+    return below == Below::touching ||
+           (below == Below::nothing && kind_ == SceneKind::city &&
+            standing_.hangs[static_cast<std::size_t>(b)] == Standing::Hangs::perhaps);
+  }
 
   /// At its middle and just inside of its corners: what is in part over the edge of a table is cut
   /// there later (geo/mesh/covered). Of a city, where files leave gaps between bodies that stand on
@@ -165,8 +164,9 @@ class Decision {
       const double gap_m = kind_ == SceneKind::city ? gap_of_city_m : heights.touching();
       is_any = is_any || support_z > -std::numeric_limits<double>::infinity();
       is_touched = is_touched && support_z >= p.z - gap_m;
+      if (is_any && !is_touched) return Below::apart;
     }
-    return is_touched ? Below::touching : is_any ? Below::apart : Below::nothing;
+    return is_touched ? Below::touching : Below::nothing;
   }
 
   Mesh& mesh_;

@@ -65,10 +65,6 @@ std::vector<double> mean_sines(const std::vector<SunnyWeather>& weather, const S
   return sum;
 }
 
-}  // namespace
-
-namespace {
-
 /// Means of an interval from what records bring into it.
 struct Brought {
   Irradiance sum;

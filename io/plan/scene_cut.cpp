@@ -67,11 +67,7 @@ void leave_out_far_from(const std::vector<PlanArea>& areas, const Mesh& mesh,
   for (const PlanArea& area : areas)
     for (const auto& ring : area)
       for (const Point2 p : ring) include(box, Vec3{p.u, p.v, 0} - mesh.origin);
-  std::erase_if(faces, [&](std::size_t t) {
-    const Box of = box_of(mesh, t);
-    return of.low.x > box.high.x || of.high.x < box.low.x || of.low.y > box.high.y ||
-           of.high.y < box.low.y;
-  });
+  std::erase_if(faces, [&](std::size_t t) { return !meet(upright(box_of(mesh, t)), box); });
 }
 
 std::vector<PlanArea> areas_of(const NamedSelection& selection, const SceneFrame& frame) {

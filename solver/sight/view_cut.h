@@ -52,27 +52,11 @@ inline ViewLine edge(const ViewPolygon& polygon, std::size_t k) {
   return line_through(polygon[k], polygon[k + 1 < polygon.size() ? k + 1 : 0]);
 }
 
-/// The part of a polygon that lies within, where a line cuts it in two; false: too many corners.
-inline bool cut_off(const ViewPolygon& polygon, const ViewDistances& beyond, ViewPolygon& within) {
-  within.clear();
-  std::size_t p = polygon.size() - 1;
-  for (std::size_t q = 0; q < polygon.size(); p = q++) {
-    if (within.size() + 2 > ViewPolygon::most) return false;
-    const ViewCorner a = polygon[p], b = polygon[q];
-    if ((beyond[p] > 0) != (beyond[q] > 0)) {
-      const double t = beyond[p] / (beyond[p] - beyond[q]);
-      within.add({a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t});
-    }
-    if (!(beyond[q] > 0)) within.add(b);
-  }
-  return true;
-}
-
 /// Leaves of a polygon what lies in another one, nothing where they are apart; false: it has too
 /// many corners.
 inline bool keep_within(ViewPolygon& polygon, const ViewPolygon& other) {
   ViewDistances beyond;
-  ViewPolygon within;
+  ViewPolygon within, outside;
   for (std::size_t k = 0; k < other.size(); ++k) {
     const ViewSide side = measure(polygon, edge(other, k), beyond);
     if (side == ViewSide::within) continue;
@@ -80,7 +64,7 @@ inline bool keep_within(ViewPolygon& polygon, const ViewPolygon& other) {
       polygon.clear();
       return true;
     }
-    if (!cut_off(polygon, beyond, within)) return false;
+    if (!cut(polygon, beyond, within, outside)) return false;
     polygon = within;
   }
   return true;
