@@ -23,6 +23,20 @@ double wider(const ViewLine& line, double by_x, double by_y) {
 }
 double touching(const ViewLine& line) { return wider(line, touching_m, touching_m); }
 
+/// How far the corners of a polygon lie beyond a line.
+struct Beyond {
+  double nearest, farthest;
+};
+Beyond beyond(const ViewLine& line, const ViewPolygon& polygon) {
+  const double first = line.beyond(polygon[0]);
+  Beyond all{first, first};
+  for (std::size_t i = 1; i < polygon.size(); ++i) {
+    const double by = line.beyond(polygon[i]);
+    all = {std::min(all.nearest, by), std::max(all.farthest, by)};
+  }
+  return all;
+}
+
 }  // namespace
 
 void NumbersSeen::forget_all() {
@@ -60,7 +74,7 @@ GroupShares::GroupShares(const LitShares& shares, std::span<const IntervalLight>
   for (const auto& sun : block) frames_.emplace_back(sun.direction);
 }
 
-void GroupShares::tell(const LitShares::Group& group, const SunView& view) {
+void GroupShares::tell(const PlaneGroups::Group& group, const SunView& view) {
   group_ = &group;
   view_ = &view;
   lift_ = group.normal * shares_.offset_m();
@@ -71,11 +85,11 @@ void GroupShares::tell(const LitShares::Group& group, const SunView& view) {
       facing_.push_back(k);
   Seen seen;
   if (facing_.empty()) return;
-  see(group.vertices, suns.frame, seen);
+  see(shares_.groups().corners_of(group), suns.frame, seen);
   const double drift = suns.drift_x + suns.drift_y;
   faces_all_ = dot(group.normal, suns.frame.to_sun) > drift;
   const Overlap shaded = find_shades(seen);
-  for (const auto patch : shares_.patches_of(group)) {
+  for (const auto patch : shares_.groups().patches_of(group)) {
     if (shaded == Overlap::some)
       tell_patch(patch);
     else
@@ -84,23 +98,32 @@ void GroupShares::tell(const LitShares::Group& group, const SunView& view) {
 }
 
 /// False where it is seen from the side, without area.
-bool GroupShares::see(const Vertices& vertices, const ViewFrame& frame, Seen& seen) const {
-  std::array<ViewPoint, 3> p;
+bool GroupShares::see(std::span<const Vec3> corners, const ViewFrame& frame, Seen& seen) const {
+  std::array<ViewPoint, ViewPolygon::most> p;
   seen.lowest = {1e300, 1e300};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Vec3 v = shares_.hierarchy().vertices()[static_cast<std::size_t>(vertices[c])] + lift_;
+  double turn = 0;
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    const Vec3 v = corners[c] + lift_;
     p[c] = frame(v);
     seen.lowest = {std::min(seen.lowest.z, v.z), std::min(seen.lowest.along, p[c].h)};
+    if (c > 1)
+      turn += (p[c - 1].x - p[0].x) * (p[c].y - p[0].y) - (p[c - 1].y - p[0].y) * (p[c].x - p[0].x);
   }
-  const double turn = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
-  if (turn < 0) std::swap(p[1], p[2]);
+  if (turn < 0)
+    std::reverse(p.begin() + 1, p.begin() + static_cast<std::ptrdiff_t>(corners.size()));
   seen.polygon.clear();
   seen.box = {};
-  for (const ViewPoint& corner : p) {
-    seen.polygon.add({corner.x, corner.y});
-    seen.box.include({corner.x, corner.y});
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    seen.polygon.add({p[c].x, p[c].y});
+    seen.box.include({p[c].x, p[c].y});
   }
   return turn != 0;
+}
+
+bool GroupShares::see_patch(std::uint32_t patch, const ViewFrame& frame, Seen& seen) const {
+  const Hierarchy& mesh = shares_.hierarchy();
+  return see(std::array{mesh.corner(patch, 0), mesh.corner(patch, 1), mesh.corner(patch, 2)}, frame,
+             seen);
 }
 
 /// All that may shade some of the group, from any of the suns.
@@ -241,27 +264,25 @@ GroupShares::Overlap GroupShares::overlap(const Seen& seen, const Shade& shade) 
 GroupShares::Overlap GroupShares::overlap_by_outline(const Seen& seen, const Shade& shade) {
   if (shade.box.is_apart_from(seen.box, shade.wider_x - touching_m, shade.wider_y - touching_m))
     return Overlap::none;
-  const ViewPolygon &triangle = seen.polygon, &outline = shade.polygon;
+  const ViewPolygon& outline = shade.polygon;
   bool all = shade.is_solid;
   std::size_t p = outline.size() - 1;
   for (std::size_t q = 0; q < outline.size(); p = q++) {
     const ViewLine line = line_through(outline[p], outline[q]);
-    const double a = line.beyond(triangle[0]), b = line.beyond(triangle[1]),
-                 c = line.beyond(triangle[2]), by = wider(line, shade.wider_x, shade.wider_y);
-    if (std::min(std::min(a, b), c) > by - touching(line)) return Overlap::none;
-    all = all && std::max(std::max(a, b), c) <= -by;
+    const auto [nearest, farthest] = beyond(line, seen.polygon);
+    const double by = wider(line, shade.wider_x, shade.wider_y);
+    if (nearest > by - touching(line)) return Overlap::none;
+    all = all && farthest <= -by;
   }
   return all ? Overlap::all : Overlap::some;
 }
 
 /// All of the shade lies beyond an edge of what may be shaded.
 bool GroupShares::is_beside(const Seen& seen, const Shade& shade) {
-  const ViewPolygon &triangle = seen.polygon, &outline = shade.polygon;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const ViewLine line = line_through(triangle[k], triangle[k < 2 ? k + 1 : 0]);
-    double nearest = line.beyond(outline[0]);
-    for (std::size_t i = 1; i < outline.size(); ++i)
-      nearest = std::min(nearest, line.beyond(outline[i]));
+  const ViewPolygon& before = seen.polygon;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const ViewLine line = line_through(before[k], before[k + 1 < before.size() ? k + 1 : 0]);
+    const double nearest = beyond(line, shade.polygon).nearest;
     if (nearest > wider(line, shade.wider_x, shade.wider_y) - touching(line)) return true;
   }
   return false;
@@ -270,7 +291,7 @@ bool GroupShares::is_beside(const Seen& seen, const Shade& shade) {
 void GroupShares::tell_patch(std::uint32_t patch) {
   Seen seen;
   const SunCluster& suns = view_->suns();
-  see(shares_.hierarchy().patches()[patch].vertices, suns.frame, seen);
+  see_patch(patch, suns.frame, seen);
   chosen_.clear();
   for (std::uint32_t number = 0; number < found_.size(); ++number) {
     // A patch that is the group has been asked already.
@@ -284,8 +305,7 @@ void GroupShares::tell_patch(std::uint32_t patch) {
 
 float GroupShares::share_at(std::uint32_t patch, std::size_t k) {
   Seen seen;
-  if (!see(shares_.hierarchy().patches()[patch].vertices, frames_[k], seen))
-    return LitShares::by_rays;
+  if (!see_patch(patch, frames_[k], seen)) return LitShares::by_rays;
   kept_.clear();
   for (const auto number : chosen_) {
     const Shade& shade = shade_at(number, k);

@@ -38,11 +38,10 @@ class GroupShares {
   /// Puts what it finds into `out`, LitShares::of.
   GroupShares(const LitShares& shares, std::span<const IntervalLight> block, SendsOn what_sends_on,
               Columns& out);
-  void tell(const LitShares::Group& group, const SunView& view);
+  void tell(const PlaneGroups::Group& group, const SunView& view);
 
  private:
-  using Vertices = std::array<std::int32_t, 3>;
-  /// What may be shaded: the group's triangle, or a patch, as the sun sees it.
+  /// What may be shaded: the group's polygon, or a patch, as the sun sees it.
   struct Seen {
     ViewPolygon polygon;
     ViewBox box;
@@ -66,7 +65,8 @@ class GroupShares {
   enum class Overlap { none, some, all };
   using Numbers = std::vector<std::uint32_t>;
 
-  bool see(const Vertices& vertices, const ViewFrame& frame, Seen& seen) const;
+  bool see(std::span<const Vec3> corners, const ViewFrame& frame, Seen& seen) const;
+  bool see_patch(std::uint32_t patch, const ViewFrame& frame, Seen& seen) const;
   Overlap find_shades(const Seen& group);
   bool add_shades(const Seen& group, std::span<const std::uint32_t> highest_first);
   bool hides_all_suns(std::uint32_t face) const;
@@ -91,7 +91,7 @@ class GroupShares {
   Columns& out_;
   std::vector<ViewFrame> frames_;  ///< of each sun
   // The group and the suns at hand:
-  const LitShares::Group* group_ = nullptr;
+  const PlaneGroups::Group* group_ = nullptr;
   const SunView* view_ = nullptr;
   Vec3 lift_{};                      ///< from the group to where rays of it start
   std::vector<std::size_t> facing_;  ///< suns that the group faces

@@ -3,9 +3,9 @@
 /// The share of every patch that sees the sun: exactly, by geometry, without rays.
 ///
 /// Seen from the sun, the faces that stand before a patch cover it by polygons; the share of its
-/// area that none of them covers is lit (solver/sight/lit_area.h). Patches of one triangle are
-/// looked at in groups, and with all suns of a block side by side: most of them are found to be
-/// wholly lit or dark by a few edges.
+/// area that none of them covers is lit (solver/sight/lit_area.h). Patches of one face are looked
+/// at in groups, and with all suns of a block side by side: most of them are found to be wholly lit
+/// or dark by a few edges.
 ///
 /// Rays must tell of patches behind screens, through which light passes by chance; of a sun with a
 /// disk of which a part is hidden; of patches that are shaded by so many faces that rays cost less;
@@ -14,7 +14,6 @@
 /// patches these are does not depend on any random number.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +21,7 @@
 #include "solver/light/sun_block.h"
 #include "solver/light/transport.h"
 #include "solver/mesh/hierarchy.h"
+#include "solver/sight/plane_groups.h"
 #include "solver/sight/sun_view.h"
 
 namespace sunload {
@@ -51,31 +51,17 @@ class LitShares {
   Columns of(std::span<const IntervalLight> block, SendsOn what_sends_on = SendsOn::by_rays) const;
   static constexpr float by_rays = -1;
 
-  /// Patches of one triangle that are looked at together.
-  struct Group {
-    std::array<std::int32_t, 3> vertices;  ///< of the hierarchy, in either order
-    std::size_t first, count;              ///< of its patches in a list
-    bool sends_on;                         ///< as a mirror, pane or gloss
-    Vec3 normal;
-    double plane_offset;  ///< normal · any point of the plane
-  };
-  const std::vector<Group>& groups() const { return groups_; }
-  std::span<const std::uint32_t> patches_of(const Group& group) const {
-    return std::span(patch_).subspan(group.first, group.count);
-  }
+  const PlaneGroups& groups() const { return groups_; }
   const Hierarchy& hierarchy() const { return hierarchy_; }
   const SunFaces& faces() const { return faces_; }
   double offset_m() const { return offset_m_; }
 
  private:
-  void choose_groups(const Scene& scene);
-
   const Hierarchy& hierarchy_;
   double offset_m_;
   SunFaces faces_;
+  PlaneGroups groups_;
   SunView::Extent extent_;
-  std::vector<std::uint32_t> patch_;  ///< group by group
-  std::vector<Group> groups_;
 };
 
 }  // namespace sunload

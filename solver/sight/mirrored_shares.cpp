@@ -46,25 +46,24 @@ class MirroredShares::GroupWork {
   GroupWork(const MirroredShares& mirrored, Columns& out) : m_(mirrored), out_(out) {}
 
   /// `planes`: of the mirrors, those whose light may come near. Of sun k.
-  void tell(const LitShares::Group& group, const ViewFrame& frame,
+  void tell(const PlaneGroups::Group& group, const ViewFrame& frame,
             std::span<const LitPlane* const> planes, std::size_t k) {
     const double cos_theta = dot(group.normal, frame.to_sun);
     if (cos_theta <= least_cosine) return;
-    const Hierarchy& mesh = m_.shares().hierarchy();
     const Vec3 lift = group.normal * m_.shares().offset_m();
-    std::array<Vec3, 3> corners;
+    corners_.clear();
     ViewBox box;
-    for (std::size_t c = 0; c < 3; ++c) {
-      corners[c] = mesh.vertices()[static_cast<std::size_t>(group.vertices[c])] + lift;
-      box.include({dot(corners[c], frame.x), dot(corners[c], frame.y)});
+    for (const Vec3& corner : m_.shares().groups().corners_of(group)) {
+      const Vec3 p = corners_.emplace_back(corner + lift);
+      box.include({dot(p, frame.x), dot(p, frame.y)});
     }
     group_ = &group;
     frame_ = &frame;
     patches_.clear();
     for (const LitPlane* plane : planes)
-      if (!box.is_apart_from(plane->box(), 0, 0)) look_into(*plane, corners);
+      if (!box.is_apart_from(plane->box(), 0, 0)) look_into(*plane);
     for (std::size_t i = 0; i < patches_.size(); ++i) {
-      float& of_patch = out_[m_.shares().patches_of(group)[i] * block_width + k];
+      float& of_patch = out_[m_.shares().groups().patches_of(group)[i] * block_width + k];
       const auto& [polygon, patch_box, area, light, is_told] = patches_[i];
       if (!is_told)
         of_patch = by_rays;
@@ -90,8 +89,8 @@ class MirroredShares::GroupWork {
   };
 
   /// The group by mirrors of one plane.
-  void look_into(const LitPlane& plane, const std::array<Vec3, 3>& corners) {
-    FlatPolygon before(corners);
+  void look_into(const LitPlane& plane) {
+    FlatPolygon before(corners_);
     if (before.keep_before(plane.before()) == FlatPolygon::Kept::none) return;
     const ViewPolygon group = before.seen(*frame_);
     if (!group.has_area()) return;
@@ -159,7 +158,7 @@ class MirroredShares::GroupWork {
     if (!patches_.empty()) return;
     const Hierarchy& mesh = m_.shares().hierarchy();
     const Vec3 lift = group_->normal * m_.shares().offset_m();
-    for (const auto i : m_.shares().patches_of(*group_)) {
+    for (const auto i : m_.shares().groups().patches_of(*group_)) {
       const std::array corners{mesh.corner(i, 0) + lift, mesh.corner(i, 1) + lift,
                                mesh.corner(i, 2) + lift};
       const ViewPolygon polygon = FlatPolygon(corners).seen(*frame_);
@@ -171,8 +170,9 @@ class MirroredShares::GroupWork {
   Columns& out_;
   LitArea area_;
   // The group and the mirrored sun at hand:
-  const LitShares::Group* group_ = nullptr;
+  const PlaneGroups::Group* group_ = nullptr;
   const ViewFrame* frame_ = nullptr;
+  std::vector<Vec3> corners_;   ///< of the group, where rays of it start
   std::vector<Patch> patches_;  ///< once light comes near
   std::vector<Falling> falling_;
   std::vector<const FaceOutline*> shades_;
@@ -190,14 +190,12 @@ MirroredShares::MirroredShares(const LitShares& shares, const MirrorGroups& grou
 }
 
 void MirroredShares::find_neighbours() {
-  const auto& groups = shares_.groups();
-  const auto& vertices = shares_.hierarchy().vertices();
+  const auto& groups = shares_.groups().all();
   for (std::size_t begin = 0; begin < groups.size(); begin += groups_together) {
     const std::size_t end = std::min(begin + groups_together, groups.size());
     Box box;
     for (std::size_t g = begin; g < end; ++g)
-      for (const auto vertex : groups[g].vertices)
-        include(box, vertices[static_cast<std::size_t>(vertex)]);
+      for (const Vec3& corner : shares_.groups().corners_of(groups[g])) include(box, corner);
     neighbours_.push_back({begin, end, centre_of(box), norm(half_of(box)) + shares_.offset_m()});
   }
 }
@@ -221,19 +219,19 @@ Columns MirroredShares::of(std::span<const IntervalLight> block,
       const auto [k, sun] = all[first + i];
       lit[i].emplace(groups_, planes_, tree_, shares_.offset_m(), *sun, block[k].direction);
     });
-    parallel_chunks(neighbours_.size(), neighbours_per_task,
-                    [&](std::size_t begin, std::size_t end) {
-                      GroupWork work(*this, light);
-                      std::vector<const LitPlane*> near;
-                      for (std::size_t i = 0; i < lit.size(); ++i)
-                        for (std::size_t n = begin; n < end; ++n) {
-                          const Neighbours& of = neighbours_[n];
-                          find_near(*lit[i], of.centre, of.radius_m, near);
-                          if (near.empty()) continue;
-                          for (std::size_t g = of.begin; g < of.end; ++g)
-                            work.tell(shares_.groups()[g], lit[i]->frame(), near, all[first + i].k);
-                        }
-                    });
+    parallel_chunks(
+        neighbours_.size(), neighbours_per_task, [&](std::size_t begin, std::size_t end) {
+          GroupWork work(*this, light);
+          std::vector<const LitPlane*> near;
+          for (std::size_t i = 0; i < lit.size(); ++i)
+            for (std::size_t n = begin; n < end; ++n) {
+              const Neighbours& of = neighbours_[n];
+              find_near(*lit[i], of.centre, of.radius_m, near);
+              if (near.empty()) continue;
+              for (std::size_t g = of.begin; g < of.end; ++g)
+                work.tell(shares_.groups().all()[g], lit[i]->frame(), near, all[first + i].k);
+            }
+        });
   }
   return light;
 }

@@ -20,8 +20,11 @@ SunFaces::SunFaces(const Scene& scene, double flat_m) {
   const Occluders occluders(scene.mesh, screens(scene).transmittance);
   const ClosedBodies bodies = closed_bodies(occluders);
   const std::vector<ConvexFace> faces = convex_faces(occluders, flat_m, most_corners);
-  for (const ConvexFace& face : faces)
-    add(face.corners, face.normal, false, bodies.turned[face.triangles.front()]);
+  of_triangle_.assign(occluders.triangle_count(), none);
+  for (std::uint32_t f = 0; f < faces.size(); ++f) {
+    add(faces[f].corners, faces[f].normal, false, bodies.turned[faces[f].triangles.front()]);
+    for (const auto triangle : faces[f].triangles) of_triangle_[triangle] = f;
+  }
   for (std::size_t t = 0; t < occluders.triangle_count(); ++t) {
     const Vec3 a = occluders.corner(t, 0), b = occluders.corner(t, 1), c = occluders.corner(t, 2);
     const Vec3 area2 = cross(b - a, c - a);

@@ -36,6 +36,9 @@ class SunFaces {
     return std::span(corner_).subspan(begin_[face], begin_[face + 1] - begin_[face]);
   }
   Vec3 normal(std::size_t face) const { return normal_[face]; }
+  /// Of an opaque triangle of the scene; `none` of others.
+  std::uint32_t of_triangle(std::size_t triangle) const { return of_triangle_[triangle]; }
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
   std::span<const std::array<std::uint8_t, 2>> edges_of_core(std::size_t core) const {
     return edges_of_core_[core - face_count_];
   }
@@ -69,6 +72,7 @@ class SunFaces {
   double top_of_all_ = -1e300;
   std::vector<std::uint8_t> is_screen_;
   std::vector<Closed> body_;
+  std::vector<std::uint32_t> of_triangle_;
   std::vector<std::vector<std::array<std::uint8_t, 2>>> edges_of_core_;
 };
 
