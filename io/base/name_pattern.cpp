@@ -8,12 +8,12 @@
 #include <cctype>
 
 #include "geo/base/check.h"
+#include "io/base/first_of_many.h"
 #include "io/base/key_names.h"
 
 namespace sunload {
 namespace {
 
-constexpr std::size_t names_told = 5;
 // A third of the letters wrong is as far as a slip of the hand goes.
 constexpr std::size_t letters_per_slip = 3;
 
@@ -23,10 +23,9 @@ std::string lower(std::string word) {
 }
 
 std::string quoted(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t k = 0; k < std::min(names.size(), names_told); ++k)
-    text += fmt::format("{}'{}'", k > 0 ? ", " : "", names[k]);
-  return text + (names.size() > names_told ? ", …" : "");
+  FirstOfMany quoted;
+  for (const std::string& name : names) quoted.add(fmt::format("'{}'", name));
+  return quoted.text();
 }
 
 void add_unknown(Problems& problems, const std::string& pattern,
@@ -86,6 +85,7 @@ std::vector<std::string> near_names(const std::string& word,
   std::stable_sort(near.begin(), near.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> names;
+  names.reserve(near.size());
   for (auto& [slips, name] : near) names.push_back(std::move(name));
   return names;
 }

@@ -10,6 +10,7 @@
 
 #include "geo/mesh/intersections.h"
 #include "geo/mesh/surface_kind.h"
+#include "io/base/first_of_many.h"
 
 namespace sunload {
 namespace {
@@ -56,11 +57,10 @@ std::string signed_text(double metres) {
 }
 
 std::string gaps_text(const std::vector<FootGap>& gaps, std::size_t most) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(gaps.size(), most); ++i)
-    text +=
-        fmt::format("{}{} {} m", i == 0 ? "" : ", ", gaps[i].object, signed_text(gaps[i].gap_m));
-  return text + (gaps.size() > most ? ", …" : "");
+  FirstOfMany names(most);
+  for (const FootGap& gap : gaps)
+    names.add(fmt::format("{} {} m", gap.object, signed_text(gap.gap_m)));
+  return names.text();
 }
 
 /// How the land goes on beyond the outermost feet, by the largest slope there (a tangent).

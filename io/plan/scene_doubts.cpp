@@ -15,6 +15,7 @@
 #include "geo/mesh/box_tree.h"
 #include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
+#include "io/base/first_of_many.h"
 #include "io/scene/file.h"
 #include "io/study/material_table.h"
 
@@ -297,24 +298,11 @@ std::vector<std::size_t> tops_of_covered(const Mesh& mesh) {
   return top;
 }
 
-/// Names of some, and how many there are.
-class NamesOfSome {
- public:
-  void add(const std::string& name) {
-    if (count_++ < most_named) names_ += (count_ > 1 ? ", " : "") + name;
-  }
-  std::size_t count() const { return count_; }
-  /// `3 objects lie wholly inside others: a, b, c`.
-  std::string lie(const std::string& where) const {
-    return fmt::format("{} object{} wholly {}: {}{}", count_, count_ == 1 ? " lies" : "s lie",
-                       where, names_, count_ > most_named ? ", …" : "");
-  }
-
- private:
-  static constexpr std::size_t most_named = 5;
-  std::string names_;
-  std::size_t count_ = 0;
-};
+/// `3 objects lie wholly inside others: a, b, c`.
+std::string lie(const FirstOfMany& names, const std::string& where) {
+  return fmt::format("{} object{} wholly {}: {}", names.count(),
+                     names.count() == 1 ? " lies" : "s lie", where, names.text());
+}
 
 /// How far the land is above a point [m]; 0 where it is not.
 double depth_below(const PlanTriangles& land, Vec3 point) {
@@ -331,7 +319,7 @@ void tell_of_hidden(const Study& study, BuiltScene& built) {
   const Mesh& mesh = built.scene.mesh;
   const PlanTriangles land(mesh, land_triangles(mesh));
   const std::vector<std::size_t> tops = tops_of_covered(mesh);
-  NamesOfSome buried, placed_inside, inside;
+  FirstOfMany buried, placed_inside, inside;
   for (std::size_t o = 0; o < tops.size(); ++o) {
     if (tops[o] == no_triangle) continue;
     const std::string& name = mesh.object_names[o];
@@ -344,12 +332,12 @@ void tell_of_hidden(const Study& study, BuiltScene& built) {
   const char* const unseen = "no light comes there, and no result tells of it";
   if (buried.count() > 0)
     built.warnings.push_back(
-        message(study.scene.where, buried.lie("below the land"), unseen,
+        message(study.scene.where, lie(buried, "below the land"), unseen,
                 "are cellars meant, or have the files heights of two systems?"));
   if (placed_inside.count() > 0)
-    built.warnings.push_back(message(study.scene.where, placed_inside.lie("inside others"), unseen,
+    built.warnings.push_back(message(study.scene.where, lie(placed_inside, "inside others"), unseen,
                                      "are the places of scene.edit right?"));
-  if (inside.count() > 0) built.notes.push_back(inside.lie("inside others") + "; " + unseen);
+  if (inside.count() > 0) built.notes.push_back(lie(inside, "inside others") + "; " + unseen);
 }
 
 namespace {

@@ -17,6 +17,7 @@
 #include "geo/mesh/feet.h"
 #include "geo/sun/map_axes.h"
 #include "geo/sun/site.h"
+#include "io/base/first_of_many.h"
 #include "io/base/name_pattern.h"
 #include "io/plan/row_places.h"
 #include "io/plan/scene_models.h"
@@ -139,12 +140,11 @@ class SceneEditor {
 
   void tell(const std::string& what, const std::vector<std::string>& names,
             const std::string& besides = {}) {
-    const auto shown =
-        names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most_told));
-    model_.notes.push_back(fmt::format("scene.edit[{}]: {} {} object{}: {}{}{}", number_, what,
-                                       names.size(), names.size() == 1 ? "" : "s",
-                                       fmt::join(names.begin(), shown, ", "),
-                                       names.size() > most_told ? ", …" : "", besides));
+    FirstOfMany told(most_told);
+    for (const std::string& name : names) told.add(name);
+    model_.notes.push_back(fmt::format("scene.edit[{}]: {} {} object{}: {}{}", number_, what,
+                                       told.count(), told.count() == 1 ? "" : "s", told.text(),
+                                       besides));
   }
 
   /// The same of objects that stand elsewhere now, or were not there before.

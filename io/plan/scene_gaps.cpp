@@ -12,6 +12,7 @@
 #include "geo/base/check.h"
 #include "geo/mesh/ground.h"
 #include "geo/mesh/plan_triangles.h"
+#include "io/base/first_of_many.h"
 
 namespace sunload {
 namespace {
@@ -19,13 +20,11 @@ namespace {
 /// The first of those above the ground by more than `floating_m`, of `count` in all.
 std::string names_of(const std::vector<FootGap>& gaps, std::size_t count) {
   constexpr std::size_t most = 10;
-  std::string names;
-  std::size_t named = 0;
-  for (const FootGap& gap : gaps) {
-    if (named == most || !(gap.gap_m > floating_m)) continue;
-    names += fmt::format("{}{} by {:.2f} m", named++ > 0 ? ", " : "", gap.object, gap.gap_m);
-  }
-  return names + (count > named ? ", …" : "");
+  FirstOfMany names(most);
+  for (const FootGap& gap : gaps)
+    if (gap.gap_m > floating_m) names.add(fmt::format("{} by {:.2f} m", gap.object, gap.gap_m));
+  names.add_unnamed(count - names.count());
+  return names.text();
 }
 
 void warn_of_gaps_to(const GroundReport& ground, const Study& study, BuiltScene& built) {

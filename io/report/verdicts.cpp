@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "io/base/first_of_many.h"
 #include "io/base/name_pattern.h"
 #include "io/base/statistics.h"
 #include "io/base/text.h"
@@ -208,19 +209,17 @@ bool is_of_other_surfaces(const VerdictPair& pair) {
 
 std::string other_surfaces_in_words(const Verdicts& verdicts) {
   constexpr std::size_t most_told = 4;
-  std::vector<std::string> others;
+  FirstOfMany others(most_told);
   for (const VerdictPair& pair : verdicts.pairs)
     if (is_of_other_surfaces(pair))
-      others.push_back(fmt::format("{} {} of {} ({:.4g} → {:.4g} m2, {:.4g} in common)",
-                                   pair.base->kind, pair.base->name, pair.base->measure,
-                                   pair.base->area_m2, pair.variant->area_m2, pair.common_m2));
-  if (others.empty()) return {};
-  const std::size_t count = others.size();
-  others.resize(std::min(count, most_told));
+      others.add(fmt::format("{} {} of {} ({:.4g} → {:.4g} m2, {:.4g} in common)", pair.base->kind,
+                             pair.base->name, pair.base->measure, pair.base->area_m2,
+                             pair.variant->area_m2, pair.common_m2));
+  if (others.count() == 0) return {};
   return fmt::format(
-      "{} verdicts are over other surfaces in the variant than in the base: {}{}; --quantity "
+      "{} verdicts are over other surfaces in the variant than in the base: {}; --quantity "
       "measure_NAME compares what both have",
-      count, fmt::join(others, ", "), count > most_told ? ", …" : "");
+      others.count(), others.text());
 }
 
 }  // namespace
