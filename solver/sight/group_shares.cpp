@@ -88,6 +88,7 @@ void GroupShares::tell(const PlaneGroups::Group& group, const SunView& view) {
   see(shares_.groups().corners_of(group), suns.frame, seen);
   const double drift = suns.drift_x + suns.drift_y;
   faces_all_ = dot(group.normal, suns.frame.to_sun) > drift;
+  is_one_point_ = suns.count == 1 && drift == 0;
   const Overlap shaded = find_shades(seen);
   for (const auto patch : shares_.groups().patches_of(group)) {
     if (shaded == Overlap::some)
@@ -141,6 +142,7 @@ GroupShares::Overlap GroupShares::find_shades(const Seen& group) {
     for (std::size_t c = cells.column0; c <= cells.column1; ++c)
       if (add_shades(group, view.faces_in(c, r))) return Overlap::all;
   if (found_.empty()) return Overlap::none;
+  if (is_one_point_) return Overlap::some;
   is_made_.assign(found_.size() * suns.count, 0);
   if (of_suns_.size() < is_made_.size()) of_suns_.resize(is_made_.size());
   return Overlap::some;
@@ -165,7 +167,10 @@ bool GroupShares::add_shades(const Seen& group, std::span<const std::uint32_t> h
     if (!outline(face, before_[found_.size()], suns.frame, shade)) continue;
     const Overlap shaded = overlap(group, shade);
     if (shaded == Overlap::all && hides_all_suns(face)) return true;
-    if (shaded != Overlap::none) found_.push_back(face);
+    if (shaded == Overlap::none) continue;
+    shade.face = face;
+    if (is_one_point_) shade.area = shade.polygon.area();
+    found_.push_back(face);
   }
   return false;
 }
@@ -291,7 +296,7 @@ bool GroupShares::is_beside(const Seen& seen, const Shade& shade) {
 void GroupShares::tell_patch(std::uint32_t patch) {
   Seen seen;
   const SunCluster& suns = view_->suns();
-  see_patch(patch, suns.frame, seen);
+  const bool has_area = see_patch(patch, suns.frame, seen);
   chosen_.clear();
   for (std::uint32_t number = 0; number < found_.size(); ++number) {
     // A patch that is the group has been asked already.
@@ -300,7 +305,16 @@ void GroupShares::tell_patch(std::uint32_t patch) {
     if (shaded != Overlap::none) chosen_.push_back(number);
   }
   if (chosen_.empty()) return tell(patch, 1);
+  if (is_one_point_) return tell(patch, has_area ? share_of_one_point(seen) : LitShares::by_rays);
   for (const auto k : facing_) out_[patch * block_width + k] = share_at(patch, k);
+}
+
+/// Each of the chosen shades shades some of it, none shades all.
+float GroupShares::share_of_one_point(const Seen& patch) {
+  kept_.clear();
+  for (const auto number : chosen_)
+    if (!shares_.faces().is_core(shades_[number].face)) kept_.push_back(&shades_[number]);
+  return share(patch);
 }
 
 float GroupShares::share_at(std::uint32_t patch, std::size_t k) {

@@ -53,9 +53,8 @@ class GroupShares {
     ViewBox box;
     double wider_x = 0, wider_y = 0;  ///< what is nearer to it than that may be shaded or not [m]
     bool is_solid = true;
-    // Of shades of one sun:
     std::uint32_t face = 0;
-    double area = 0;  ///< [m2]
+    double area = 0;  ///< of shades of one sun [m2]
   };
   /// How far the corners of a face are before the plane of the group [m].
   struct Before {
@@ -80,6 +79,7 @@ class GroupShares {
   static Overlap overlap_by_outline(const Seen& seen, const Shade& shade);
   static bool is_beside(const Seen& seen, const Shade& shade);
   void tell_patch(std::uint32_t patch);
+  float share_of_one_point(const Seen& patch);
   float share_at(std::uint32_t patch, std::size_t k);
   const Shade& shade_at(std::uint32_t number, std::size_t k);
   float share(const Seen& patch);
@@ -96,6 +96,7 @@ class GroupShares {
   Vec3 lift_{};                      ///< from the group to where rays of it start
   std::vector<std::size_t> facing_;  ///< suns that the group faces
   bool faces_all_ = false;
+  bool is_one_point_ = false;  ///< one sun, without a disk: what its view shows is what it sees
   NumbersSeen asked_;
   Numbers found_;              ///< cores, then faces that may shade the group, from any of the suns
   std::vector<Shade> shades_;  ///< these, seen from the middle of the suns; and more room
