@@ -13,6 +13,7 @@
 #include "geo/mesh/overlap.h"
 #include "geo/mesh/plumb_line.h"
 #include "geo/mesh/slope.h"
+#include "geo/mesh/solid_bodies.h"
 
 namespace sunload {
 
@@ -283,9 +284,7 @@ void Covers::find_bodies() {
   for (std::size_t t = 0; t < mesh_.triangle_count(); ++t)
     if (const auto b = bodies_.triangle_body[t]; b >= 0)
       of_body_[next[static_cast<std::size_t>(b)]++] = t;
-  is_solid_ = opaque_bodies(bodies_, is_opaque_);
-  for (std::size_t b = 0; b < is_solid_.size(); ++b)
-    if (!bodies_.bodies[b].is_closed || bodies_.bodies[b].is_inside_out) is_solid_[b] = 0;
+  is_solid_ = solid_bodies(mesh_, bodies_, is_opaque_, contact_);
 }
 
 void Covers::find_land() {

@@ -14,8 +14,8 @@
 /// 3. **Weld** (geo/mesh/weld). `none`: equal points; else points within
 ///    `weld_tolerance_m`, or 1e-6 of the scene's diagonal where that is less.
 /// 4. **Triangulate** (geo/mesh/triangulate).
-/// 5. **T-joints** (geo/mesh/t_joints, `all` only): corners that lie on an open edge
-///    of their own object split it.
+/// 5. **T-joints** (geo/mesh/t_joints, not for `none`): corners that lie on an open edge
+///    of their own object split it; all of them (`all`), or where that closes a body.
 /// 6. **Duplicates** (geo/mesh/mesh_clean, not for `none`): triangles of one object
 ///    with the same three corners become one. A front and a back in the same
 ///    place are a two-sided sheet, unless the object closes with one of them.
@@ -48,7 +48,8 @@
 namespace sunload {
 
 /// none: only triangulate and weld equal points. safe (default): weld within a
-/// tolerance, drop degenerates and duplicates, orient. all: also T-joints.
+/// tolerance, split T-joints that close bodies, drop degenerates and duplicates, orient. all: all
+/// T-joints.
 enum class Repair { none, safe, all };
 
 /// outward: closed bodies are lit outside. keep: the winding of the file, for rooms lit inside.

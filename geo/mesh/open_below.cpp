@@ -8,7 +8,7 @@ OpenBelow::OpenBelow(const Mesh& mesh, const Bodies& bodies)
     : mesh_(mesh), bodies_(bodies), is_house_(bodies.bodies.size(), 1) {
   std::vector<std::uint8_t> is_open(mesh.triangle_count(), 0);
   for (std::size_t t = 0; t < is_open.size(); ++t) {
-    is_open[t] = bodies.triangle_body[t] >= 0 && !bodies.is_closed(t);
+    is_open[t] = bodies.triangle_body[t] >= 0 && !bodies.is_closed(t) && !bodies.is_inner(t);
   }
   for_each_edge(edge_uses(mesh, is_open), [&](std::span<const EdgeUse> uses) {
     const bool is_foot = uses.size() == 1 && is_foot_of_wall(mesh, uses[0]);

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "geo/base/check.h"
+#include "geo/base/together.h"
 #include "geo/mesh/edge_table.h"
 #include "geo/mesh/point_tree.h"
 
@@ -114,8 +117,68 @@ std::vector<OpenEdges> open_edges(const Mesh& mesh) {
   return result;
 }
 
+/// A half-edge and the corners on it, in the order in which its triangle walks it.
+using EdgeCorners = std::pair<std::uint32_t, std::vector<std::int32_t>>;
+
+/// A piece of an open edge between two corners.
+struct Piece {
+  std::array<std::int32_t, 3> key;  ///< object, lower and higher vertex
+  std::size_t triangle;
+  bool is_foot;
+};
+
+/// Pieces of all open edges, by their keys.
+std::vector<Piece> pieces_of_open_edges(const Mesh& mesh, const std::vector<OpenEdges>& objects,
+                                        const std::vector<EdgeCorners>& found) {
+  std::vector<Piece> all;
+  for (const auto& object : objects)
+    for (const EdgeUse& use : object.uses()) {
+      const auto at = std::lower_bound(
+          found.begin(), found.end(), use.half_edge,
+          [](const EdgeCorners& edge, std::uint32_t half_edge) { return edge.first < half_edge; });
+      const auto& corners = mesh.triangles[use.triangle()];
+      std::int32_t last = corners[use.corner()];
+      const bool is_foot = is_foot_of_wall(mesh, use);
+      const auto add = [&](std::int32_t next) {
+        all.push_back(
+            {{use.object, std::min(last, next), std::max(last, next)}, use.triangle(), is_foot});
+        last = next;
+      };
+      if (at != found.end() && at->first == use.half_edge) std::ranges::for_each(at->second, add);
+      add(corners[(use.corner() + 1) % 3]);
+    }
+  std::ranges::stable_sort(all, {}, &Piece::key);
+  return all;
+}
+
+/// Leaves what is found of triangles that hang together and are then open at feet of walls alone.
+/// Returns the number of corners.
+std::size_t keep_what_closes(const Mesh& mesh, const std::vector<OpenEdges>& objects,
+                             std::vector<EdgeCorners>& found) {
+  std::sort(found.begin(), found.end());
+  Together together(mesh.triangle_count());
+  const std::vector<std::uint8_t> all(mesh.triangle_count(), 1);
+  for_each_edge(edge_uses(mesh, all), [&](std::span<const EdgeUse> uses) {
+    for (const EdgeUse& use : uses) together.join(uses[0].triangle(), use.triangle());
+  });
+  std::vector<std::size_t> open;
+  const std::vector<Piece> of_edges = pieces_of_open_edges(mesh, objects, found);
+  for (std::size_t begin = 0, end = 0; begin < of_edges.size(); begin = end) {
+    while (end < of_edges.size() && of_edges[end].key == of_edges[begin].key)
+      together.join(of_edges[begin].triangle, of_edges[end++].triangle);
+    if (end == begin + 1 && !of_edges[begin].is_foot) open.push_back(of_edges[begin].triangle);
+  }
+  std::vector<std::uint8_t> is_open(mesh.triangle_count(), 0);
+  for (const std::size_t t : open) is_open[together.of(t)] = 1;
+  std::erase_if(found,
+                [&](const EdgeCorners& edge) { return is_open[together.of(edge.first / 3)] != 0; });
+  std::size_t count = 0;
+  for (const auto& [half_edge, corners] : found) count += corners.size();
+  return count;
+}
+
 /// Replaces each triangle by its pieces, in place of it.
-void replace(Mesh& mesh, std::vector<std::pair<std::uint32_t, std::vector<std::int32_t>>>& found) {
+void replace(Mesh& mesh, std::vector<EdgeCorners>& found) {
   std::sort(found.begin(), found.end());
   Mesh old = std::move(mesh);
   mesh = {};
@@ -144,14 +207,14 @@ void replace(Mesh& mesh, std::vector<std::pair<std::uint32_t, std::vector<std::i
 
 }  // namespace
 
-std::size_t split_t_joints(Mesh& mesh, double tolerance, const std::string& source) {
+std::size_t split_t_joints(Mesh& mesh, double tolerance, const std::string& source, TJoints which) {
   const auto objects = open_edges(mesh);
   std::size_t edges = 0;
   for (const auto& object : objects) edges += object.uses().size();
   const std::size_t most_corners = corners_at_least + corners_per_edge * edges;
   const std::size_t most_looks = looks_at_least + looks_per_edge * edges;
 
-  std::vector<std::pair<std::uint32_t, std::vector<std::int32_t>>> found;
+  std::vector<EdgeCorners> found;
   std::size_t count = 0, looks = 0;
   for (const auto& object : objects) {
     for (const auto& use : object.uses()) {
@@ -161,6 +224,7 @@ std::size_t split_t_joints(Mesh& mesh, double tolerance, const std::string& sour
       count += corners.size();
       looks += cost;
       if (count > most_corners || looks > most_looks) {
+        if (which == TJoints::that_close) return 0;
         throw InputError(
             {source},
             "too many triangles of object '" +
@@ -175,6 +239,8 @@ std::size_t split_t_joints(Mesh& mesh, double tolerance, const std::string& sour
       found.emplace_back(use.half_edge, std::move(corners));
     }
   }
+  if (which == TJoints::that_close && !found.empty())
+    count = keep_what_closes(mesh, objects, found);
   if (!found.empty()) replace(mesh, found);
   return count;
 }

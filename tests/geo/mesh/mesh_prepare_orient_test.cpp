@@ -253,7 +253,7 @@ TEST(Orient, AHouseThatLooksDownIsToldBesideGroundThatLooksUp) {
   EXPECT_EQ(report.looks_down.largest, "house");
 }
 
-TEST(Orient, AllSplitsTJointsSoThatTheBodyCloses) {
+TEST(Orient, TJointsAreSplitSoThatTheBodyCloses) {
   // Walls in one piece, the top in four with corners in the middle of the walls' edges.
   auto builder = ModelBuilder().object("block");
   const auto faces = ModelBuilder::box_faces({0, 0, 0}, {4, 2, 3});
@@ -263,13 +263,15 @@ TEST(Orient, AllSplitsTJointsSoThatTheBodyCloses) {
   for (int i = 0; i < 4; ++i) {
     builder.ring({{i * 1.0, 0, 3}, {i + 1.0, 0, 3}, {i + 1.0, 2, 3}, {i * 1.0, 2, 3}});
   }
-  EXPECT_EQ(builder.prepared(repair(Repair::safe)).report.closed_bodies, 0u);
-  const auto p = builder.prepared(repair(Repair::all));
-  EXPECT_EQ(p.report.t_joints_split, 6u);
-  EXPECT_EQ(p.report.closed_bodies, 1u);
-  EXPECT_EQ(p.report.open_edges, 0u);
-  EXPECT_NEAR(p.report.volume_m3, 24, orient_rounding);
-  EXPECT_NEAR(area(p.mesh), 2 * (8 + 12 + 6), orient_rounding);
+  EXPECT_EQ(builder.prepared(repair(Repair::none)).report.closed_bodies, 0u);
+  for (const Repair how : {Repair::safe, Repair::all}) {
+    const auto p = builder.prepared(repair(how));
+    EXPECT_EQ(p.report.t_joints_split, 6u);
+    EXPECT_EQ(p.report.closed_bodies, 1u);
+    EXPECT_EQ(p.report.open_edges, 0u);
+    EXPECT_NEAR(p.report.volume_m3, 24, orient_rounding);
+    EXPECT_NEAR(area(p.mesh), 2 * (8 + 12 + 6), orient_rounding);
+  }
 }
 
 /// A closed room from a file, its faces inward: kept so, it is lit inside.

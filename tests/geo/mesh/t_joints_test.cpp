@@ -9,9 +9,14 @@
 #include "geo/base/check.h"
 #include "geo/mesh/point_tree.h"
 #include "geo/mesh/t_joints.h"
+#include "tests/geo/mesh/mesh_prepare_models.h"
 
 namespace sunload {
 namespace {
+
+using test::area;
+using test::area_of;
+using test::ModelBuilder;
 
 double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
   const Vec3 edge = b - a;
@@ -101,12 +106,6 @@ Mesh overlapping(const std::vector<Vec3>& corners) {
   return mesh;
 }
 
-double area(const Mesh& mesh) {
-  double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) sum += mesh.area_m2(t);
-  return sum;
-}
-
 TEST(TJoints, AllCornersOnEdgesAreFound) {
   constexpr double tolerance = 1e-4;
   Mesh mesh = overlapping(lattice_points(900, 20, 12, 2));
@@ -151,6 +150,68 @@ TEST(TJoints, ThoseWithoutEndAreRefused) {
          {"line.obj: too many triangles of object 'heap' overlap", "scene.repair: safe"})
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
+}
+
+/// Houses whose walls have corners in their edges that roofs, floors and neighbours have not.
+ModelBuilder house_with_corners(bool has_floor, Vec3 off = {}) {
+  ModelBuilder model;
+  model.object("house");
+  const auto faces = ModelBuilder::box_faces({0, 0, 0}, {10, 8, 6});
+  for (std::size_t f = has_floor ? 0 : 1; f < faces.size(); ++f) {
+    std::vector<Vec3> ring;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3 a = faces[f][k], b = faces[f][(k + 1) % 4];
+      ring.push_back(a);
+      if (f >= 2 && (f + k) % 2 == 0) ring.push_back(0.75 * a + 0.25 * b + off);
+    }
+    model.ring(ring);
+  }
+  return model;
+}
+
+TEST(TJoints, ThatCloseAHouseAreSplit) {
+  for (const bool has_floor : {true, false}) {
+    const PreparedMesh p = house_with_corners(has_floor).prepared();
+    EXPECT_EQ(p.report.closed_bodies, has_floor ? 1u : 0u);
+    EXPECT_GT(p.report.t_joints_split, 0u);
+    EXPECT_NEAR(area_of(p, Surface::roof), 80, 1e-9);
+    EXPECT_NEAR(area_of(p, Surface::wall), 36 * 6, 1e-9);
+    EXPECT_EQ(p.report.open_edges == 0, has_floor);
+    // Rounded, by as much in this small scene as millimetres are in one of 100 m.
+    const PreparedMesh r = house_with_corners(has_floor, {5e-5, -4e-5, 3e-5}).prepared();
+    EXPECT_EQ(r.report.closed_bodies, has_floor ? 1u : 0u);
+    EXPECT_NEAR(area_of(r, Surface::roof), 80, 0.02);
+  }
+}
+
+TEST(TJoints, OfWhatStaysOpenAreNotSplit) {
+  ModelBuilder broken = house_with_corners(true);
+  auto& model = broken.model();
+  ModelBuilder open;
+  open.object("house");
+  const auto faces = ModelBuilder::box_faces({0, 0, 0}, {10, 8, 6});
+  for (std::size_t f = 0; f < 5; ++f) {  // no wall in the east
+    std::vector<Vec3> ring(faces[f].begin(), faces[f].end());
+    if (f >= 2) ring.insert(ring.begin() + 1, 0.5 * (ring[0] + ring[1]));
+    open.ring(ring);
+  }
+  EXPECT_EQ(open.prepared().report.t_joints_split, 0u);
+  PrepareRules all;
+  all.repair = Repair::all;
+  EXPECT_GT(open.prepared(all).report.t_joints_split, 0u);
+  // A house of the same object that closes is split all the same.
+  open.moved([](Vec3 v) { return v + Vec3{100, 0, 0}; });
+  for (std::size_t p = 0; p < model.polygon_count(); ++p) {
+    const auto ring = static_cast<std::size_t>(model.polygon_ring[p]);
+    std::vector<Vec3> points;
+    for (auto i = model.ring_begin[ring]; i < model.ring_begin[ring + 1]; ++i)
+      points.push_back(
+          model.vertices[static_cast<std::size_t>(model.ring_vertex[static_cast<std::size_t>(i)])]);
+    open.ring(points);
+  }
+  const PreparedMesh p = open.prepared();
+  EXPECT_EQ(p.report.closed_bodies, 1u);
+  EXPECT_EQ(p.report.t_joints_split, broken.prepared().report.t_joints_split);
 }
 
 }  // namespace
