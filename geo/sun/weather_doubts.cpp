@@ -24,14 +24,16 @@ void add_doubt(WeatherDoubt& doubt, const DatedWeather& record, double is, doubl
   doubt.wh_m2 += (is - at_most) * horizontal * (record.end - record.begin) / seconds_per_hour;
 }
 
-void add_darkness(WeatherDoubt& doubt, const DatedWeather& record, double sine) {
+void add_high_sun(WeatherDoubts& doubts, const DatedWeather& record, double sine) {
   const auto& [dni, dhi, ghi, albedo] = record.values;
   // Clouds may well leave nothing of the beam alone.
   const bool tells_of_sky = dhi || ghi;
-  const bool has_light = dni.value_or(0) > 0 || dhi.value_or(0) > 0 || ghi.value_or(0) > 0;
-  if (!tells_of_sky || has_light) return;
-  if (sine <= std::sin(radians(surely_light_deg))) return;
-  if (doubt.records++ == 0) doubt.line = record.line;
+  if (!tells_of_sky || sine <= std::sin(radians(surely_light_deg))) return;
+  const double most = std::max({dni.value_or(0), dhi.value_or(0), ghi.value_or(0)});
+  ++doubts.high_suns;
+  doubts.most_w_m2 = std::max(doubts.most_w_m2, most);
+  if (most > 0) return;
+  if (doubts.no_light.records++ == 0) doubts.no_light.line = record.line;
 }
 
 }  // namespace
@@ -43,7 +45,7 @@ WeatherDoubts doubts_of(const std::vector<DatedWeather>& weather, const SunPath&
     const DatedWeather& record = weather[i];
     const auto& [dni, dhi, ghi, albedo] = record.values;
     const double sine = path[i].up_s > 0 ? sine_of_sun(path[i]) : 0;
-    add_darkness(doubts.no_light, record, sine);
+    add_high_sun(doubts, record, sine);
     if (dni && path[i].up_s > 0)
       add_doubt(doubts.dni, record, *dni, extraterrestrial(path[i].sun.distance_au), sine);
     if (!ghi) continue;

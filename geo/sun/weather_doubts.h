@@ -31,6 +31,8 @@ struct WeatherDoubts {
   WeatherDoubt beam_above_ghi;  ///< DNI·sin(elevation), of records without DHI
   WeatherDoubt dni;             ///< measured, above that of the sun outside of the atmosphere
   WeatherDoubt no_light;        ///< all that is measured is 0, while the sun stands high
+  std::size_t high_suns = 0;    ///< records of the sky's light while the sun stands so …
+  double most_w_m2 = 0;         ///< … and the largest value of any quantity in them
 };
 /// `weather`: as it was read; `path` has one interval for each record.
 WeatherDoubts doubts_of(const std::vector<DatedWeather>& weather, const SunPath& path);

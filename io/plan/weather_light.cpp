@@ -12,7 +12,6 @@
 #include "geo/base/units.h"
 #include "geo/sun/resample.h"
 #include "io/plan/weather_gaps.h"
-#include "io/plan/weather_words.h"
 
 namespace sunload {
 
@@ -179,11 +178,7 @@ std::vector<WeatherMean> StudyWeather::means(const SunPath& path) {
   say_doubts(as_read, weather_path);
   WeatherLight light =
       with_sun(used, weather_path, source_, study_.light.decomposition, site_.elevation_m);
-  if (light.dark_beams > 0)
-    words_.push_back(
-        fmt::format("{} records have DNI without sun above the horizon: {:.4g} Wh/m2 "
-                    "of direct light dropped, DHI kept",
-                    light.dark_beams, light.dropped_dni_wh_m2));
+  say(dark_beam_words(light, used));
   std::vector<WeatherMean> means;
   if (own) {
     for (std::size_t i = 0; i < path.size(); ++i) {
@@ -405,7 +400,10 @@ void StudyWeather::say_closure(const std::vector<DatedWeather>& used, const SunP
 }
 
 void StudyWeather::say_doubts(const std::vector<DatedWeather>& used, const SunPath& path) {
-  const WeatherSayings said = doubt_words(doubts_of(used, path), file_.path);
+  say(doubt_words(doubts_of(used, path), file_.path));
+}
+
+void StudyWeather::say(const WeatherSayings& said) {
   words_.insert(words_.end(), said.notes.begin(), said.notes.end());
   warnings_.insert(warnings_.end(), said.warnings.begin(), said.warnings.end());
 }

@@ -10,6 +10,7 @@
 #include "geo/sun/site.h"
 #include "geo/sun/weather.h"
 #include "geo/sun/weather_holes.h"
+#include "io/plan/weather_words.h"
 #include "io/study/study.h"
 #include "io/weather/file.h"
 
@@ -61,6 +62,7 @@ class StudyWeather {
   void say_file();
   void say_closure(const std::vector<DatedWeather>& used, const SunPath& path);
   void say_doubts(const std::vector<DatedWeather>& used, const SunPath& path);
+  void say(const WeatherSayings& said);
   void say_filled(const FilledWeather& gaps);
   void say_missing_days(const std::vector<WeatherHole>& holes);
   std::string in_file_time(UnixTime time) const;

@@ -8,13 +8,16 @@
 #include <algorithm>
 
 #include "geo/base/check.h"
+#include "geo/base/units.h"
 
 namespace sunload {
 
 namespace {
 
-/// What is more than this share of all GHI is no noise of instruments, nor of sunrise and sunset.
-constexpr double telling_ghi_share = 0.01;
+/// What is more than this share of all GHI, or DNI, is no noise of instruments, nor of sunrise and
+/// sunset.
+constexpr double telling_share_of_all = 0.01;
+constexpr auto* question_of_time = "are stamp and time zone of the weather right?";
 
 const char* quantity_name(WeatherQuantity quantity) {
   if (quantity == &WeatherValues::dni) return "DNI";
@@ -30,7 +33,7 @@ void add_contradiction(const WeatherDoubt& doubt, double ghi_wh_m2, const char* 
                                 : std::string("GHI has nothing");
   const std::string text = fmt::format("{} records have {}: {:.4g} Wh/m2 ({}) {}", doubt.records,
                                        what, doubt.wh_m2, share, taken);
-  if (doubt.wh_m2 > telling_ghi_share * ghi_wh_m2) {
+  if (doubt.wh_m2 > telling_share_of_all * ghi_wh_m2) {
     sayings.warnings.push_back(fmt::format("weather: {}; {}", text, question));
   } else {
     sayings.notes.push_back(text);
@@ -115,16 +118,15 @@ std::string lacking_light_warning(const Closure& closure, const std::string& pat
 }
 
 WeatherSayings doubt_words(const WeatherDoubts& doubts, const std::string& path) {
-  constexpr auto* of_time = "are stamp and time zone of the weather right?";
   constexpr auto* of_columns = "are the columns of the weather right?";
   WeatherSayings sayings;
   add_contradiction(doubts.beam_by_difference, doubts.ghi_wh_m2,
                     "GHI - DHI above the sun's own beam outside of the atmosphere",
-                    "too much for it are taken as diffuse light", of_time, sayings);
+                    "too much for it are taken as diffuse light", question_of_time, sayings);
   add_contradiction(doubts.dhi_above_ghi, doubts.ghi_wh_m2, "DHI above GHI",
                     "more light than GHI has, DHI is kept", of_columns, sayings);
   add_contradiction(doubts.beam_above_ghi, doubts.ghi_wh_m2, "DNI sin(elevation) above GHI",
-                    "more light than GHI has, DNI is kept", of_time, sayings);
+                    "more light than GHI has, DNI is kept", question_of_time, sayings);
   if (doubts.dni.records > 0)
     sayings.warnings.push_back(fmt::format(
         "weather: {} records have DNI above the sun's own outside of the atmosphere, first {}:{} "
@@ -134,8 +136,34 @@ WeatherSayings doubt_words(const WeatherDoubts& doubts, const std::string& path)
     sayings.warnings.push_back(fmt::format(
         "weather: {} records have no light at all with the sun above {:g} degrees, first {}:{}; "
         "they are taken as they are: are missing values written as 0 there, and {}",
-        doubts.no_light.records, surely_light_deg, path, doubts.no_light.line, of_time));
+        doubts.no_light.records, surely_light_deg, path, doubts.no_light.line, question_of_time));
+  constexpr double most_in_kw = 1.5;  // the sun's own beam outside of the atmosphere has 1.4
+  if (doubts.most_w_m2 > 0 && doubts.most_w_m2 <= most_in_kw)
+    sayings.warnings.push_back(fmt::format(
+        "weather: no value of {} records with the sun above {:g} degrees exceeds {:.3g} W/m2; they "
+        "are taken as they are: are they in kW/m2?",
+        doubts.high_suns, surely_light_deg, doubts.most_w_m2));
   return sayings;
+}
+
+WeatherSayings dark_beam_words(const WeatherLight& light,
+                               const std::vector<DatedWeather>& weather) {
+  if (light.dark_beams == 0) return {};
+  double dni_wh_m2 = 0;
+  for (const DatedWeather& record : weather)
+    dni_wh_m2 += record.values.dni.value_or(0) * (record.end - record.begin) / seconds_per_hour;
+  const std::string text = fmt::format(
+      "{} records have DNI without sun above the horizon: {:.4g} Wh/m2 of direct light dropped, "
+      "DHI kept",
+      light.dark_beams, light.dropped_dni_wh_m2);
+  WeatherSayings said;
+  if (light.dropped_dni_wh_m2 <= telling_share_of_all * dni_wh_m2)
+    said.notes.push_back(text);
+  else
+    said.warnings.push_back(fmt::format("weather: {} ({:.3g} % of all DNI); {}", text,
+                                        100 * light.dropped_dni_wh_m2 / dni_wh_m2,
+                                        question_of_time));
+  return said;
 }
 
 }  // namespace sunload

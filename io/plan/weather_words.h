@@ -28,5 +28,7 @@ struct WeatherSayings {
 std::string lacking_light_warning(const Closure& closure, const std::string& path);
 /// With amounts; `path`: of the file.
 WeatherSayings doubt_words(const WeatherDoubts& doubts, const std::string& path);
+/// Of direct light in the dark; a warning where it is much of the light of these records.
+WeatherSayings dark_beam_words(const WeatherLight& light, const std::vector<DatedWeather>& weather);
 
 }  // namespace sunload

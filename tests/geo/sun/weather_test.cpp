@@ -285,6 +285,8 @@ TEST(WeatherDoubts, CountHoursThatAreDarkBelowAHighSun) {
   EXPECT_EQ(doubts_of(weather, path).no_light.records, 0u);
   for (auto& w : weather) w.values = {0, 3, 3};
   EXPECT_EQ(doubts_of(weather, path).no_light.records, 0u);
+  EXPECT_EQ(doubts_of(weather, path).high_suns, static_cast<std::size_t>(high));
+  EXPECT_EQ(doubts_of(weather, path).most_w_m2, 3);
   for (auto& w : weather) w.values = {};
   EXPECT_EQ(doubts_of(weather, path).no_light.records, 0u);
 }

@@ -366,7 +366,7 @@ TEST(WeatherLight, RowsOfTheDarkMayBeMissing) {
   const auto series = series_of(
       weather_study("timezone: UTC", "year_of: weather", "weather: dark.csv, stamp: start"));
   EXPECT_EQ(series.intervals.size(), 42u);
-  EXPECT_TRUE(series.notes.empty());
+  EXPECT_FALSE(tells(series.notes, "rows"));
 }
 
 /// Whole days may be asked for, too.
@@ -560,6 +560,29 @@ TEST(WeatherLight, HoursWithoutAnyLightBelowAHighSunAreWarnedOf) {
   EXPECT_FALSE(tells(series_of_day("dni,dhi", "0,1").notes, "no light at all"));
 }
 
+TEST(WeatherLight, KilowattsAreWarnedOf) {
+  EXPECT_TRUE(tells(series_of_day("dni,dhi", "0.8,0.1").notes,
+                    "records with the sun above 10 degrees exceeds 0.8 W/m2; they are taken as "
+                    "they are: are they in kW/m2?"));
+  EXPECT_FALSE(tells(series_of_day("dni,dhi", "0,4").notes, "kW/m2"));
+}
+
+// As of stamps or a time zone that are off by hours.
+TEST(WeatherLight, MuchDirectLightInTheDarkIsWarnedOf) {
+  const auto shifted = series_of_day("dni,dhi", "500,40");
+  EXPECT_TRUE(tells(shifted.notes, "records have DNI without sun above the horizon: "));
+  EXPECT_TRUE(
+      tells(shifted.notes, " % of all DNI); are stamp and time zone of the weather right?"));
+  std::string text = roof + "time,dni,dhi\n";
+  for (int hour = 1; hour <= 24; ++hour)
+    text += fmt::format("2026-06-21T{:02}:00,{},40\n", hour, hour > 6 && hour < 19 ? 500 : 2);
+  write_text("night.csv", text);
+  const auto offset =
+      series_of(weather_study("", "year_of: weather", "weather: night.csv, stamp: end"));
+  EXPECT_TRUE(offset.notes.empty());
+  EXPECT_TRUE(tells(offset.weather, "records have DNI without sun above the horizon: "));
+}
+
 TEST(WeatherLight, DniAboveTheSunsOwnIsWarnedOf) {
   const auto series = series_of_day("dni,dhi", "1500,40");
   EXPECT_EQ(series.intervals[12].mean.dni, 1500);
@@ -567,7 +590,7 @@ TEST(WeatherLight, DniAboveTheSunsOwnIsWarnedOf) {
   EXPECT_TRUE(
       tells(series.notes, "records have DNI above the sun's own outside of the atmosphere"));
   EXPECT_TRUE(tells(series.notes, "day.csv:10 with 1500 of at most 131"));
-  EXPECT_TRUE(series_of_day("dni,dhi", "1300,40").notes.empty());
+  EXPECT_FALSE(tells(series_of_day("dni,dhi", "1300,40").notes, "the sun's own"));
 }
 
 /// As of stations that nobody reads in the evening.
