@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "geo/base/check.h"
+#include "geo/mesh/sunk_walls.h"
 #include "geo/sun/sun.h"
 #include "geo/sun/weather.h"
 #include "geo/sun/weather_holes.h"
@@ -24,6 +25,7 @@ Study bare_study(const InitRules& rules, const Findings& found) {
   study.scene.files = {scene_file_of(rules)};
   study.scene.where = {rules.model, 0, 0};
   study.period.kind = PositionsPeriod{{SunAt{180, 45, 60}}};
+  for (const auto& name : rules.land) study.scene.land.push_back({name, {rules.model, 0, 0}});
   study.site.crs = rules.crs;
   if (!rules.at.empty()) {
     const Site site = site_from_text(rules.at);
@@ -170,6 +172,12 @@ void look_at_surfaces(const Mesh& mesh, Findings& found) {
   }
 }
 
+/// Where houses go on below a sheet it is their terrain, and no roof.
+std::string terrain_of(const SunkWalls& sunk) {
+  constexpr double least_m2 = 1;
+  return sunk.area_m2 >= least_m2 && sunk.sheet != sunk.wall ? sunk.sheet : "";
+}
+
 }  // namespace
 
 SceneFileStudy scene_file_of(const InitRules& rules) {
@@ -203,6 +211,7 @@ Findings findings_of(const InitRules& rules) {
   found.is_on_its_side =
       rules.up.empty() && may_be_on_its_side(rules.model) &&
       lies_on_its_side(upward, covered_along(built.scene.mesh, report, &Vec3::y));
+  found.sunk_into = terrain_of(report.sunk);
   found.is_raster = is_raster(rules.model);
   found.warnings = built.warnings;
   std::copy_if(

@@ -30,6 +30,7 @@ struct InitRules {
   std::string zone = {};       ///< empty: a guess
   std::string up = {};         ///< x, y, z; empty: of the format
   bool is_up_guessed = false;  ///< by what lies at the foot
+  std::vector<std::string> land = {};  ///< objects that are terrain: a guess
   double unit_m = 1;
   bool is_unit_of_crs = false;             ///< by the CRS, not said by the user
   std::vector<std::string> measures = {};  ///< rules of planning, by their words
@@ -50,6 +51,7 @@ struct Findings {
   std::optional<Site> site;  ///< nothing where no place is known
   double unit_of_crs_m = 1;  ///< of its coordinates
   std::string site_source;
+  std::string sunk_into;       ///< an object that houses of others are sunk into; empty: none
   bool is_at_station = false;  ///< the place is that of the weather station
   std::optional<ZoneGuess> zone;
   std::optional<double> station_away_m;

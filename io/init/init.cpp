@@ -38,6 +38,7 @@ namespace fs = std::filesystem;
 // What a first picture may cost: most of a minute is left for reading, writing and drawing.
 constexpr double most_seconds = 8, most_disk_bytes = 5e8;
 constexpr double most_patches = 60'000;
+constexpr std::size_t most_lands = 16;  // tiles of a terrain
 constexpr std::array<double, 10> edges_m{0.25, 0.5, 1, 2, 3, 5, 10, 20, 50, 100};
 
 std::string folder_of(const std::string& path) {
@@ -214,6 +215,11 @@ int init_study(const InitRules& given, const std::string& wanted) {
   if (found.is_on_its_side) {
     rules.up = "y";
     rules.is_up_guessed = true;
+    found = findings_of(rules);
+  }
+  while (!found.sunk_into.empty() && rules.land.size() < most_lands &&
+         std::find(rules.land.begin(), rules.land.end(), found.sunk_into) == rules.land.end()) {
+    rules.land.push_back(found.sunk_into);
     found = findings_of(rules);
   }
   expect_measurable(rules.measures, found);

@@ -261,6 +261,17 @@ std::string file_text(const InitRules& rules, const std::string& folder) {
   return text;
 }
 
+std::string land_text(const InitRules& rules) {
+  if (rules.land.empty()) return {};
+  std::string names;
+  for (const auto& name : rules.land) names += (names.empty() ? "" : ", ") + quoted(name);
+  return fmt::format(
+      "  # {} land: houses are sunk into it, what lies below is covered; take the line out where "
+      "it "
+      "is no terrain\n  land: [{}]\n",
+      mark, names);
+}
+
 std::string ground_text(const Findings& found) {
   if (found.is_city_format)
     return fmt::format(  // as it was looked at
@@ -363,7 +374,7 @@ std::string scene_text(const InitRules& rules, const Findings& found, const std:
   for (const auto& note : found.footprint_notes)
     columns += fmt::format("  # {} {} (keys: footprints, terrain)\n", mark, note);
   return found_text(found) + "scene:\n" + columns + file_text(rules, folder) + excess +
-         ground_text(found) + assign_text(found) + "\n";
+         land_text(rules) + ground_text(found) + assign_text(found) + "\n";
 }
 
 std::string cost_text(const InitRules& rules, const FirstPicture& picture, const Findings& found) {

@@ -174,6 +174,36 @@ TEST(Init, AModelOnItsOwnGroundGetsNoOther) {
   EXPECT_EQ(box_text.find("ground: none\n"), std::string::npos) << "a house stands on none";
 }
 
+TEST(Init, WhatHousesAreSunkIntoIsLand) {
+  // Two tiles of a slope, a house in each.
+  std::string text = "o west\nv -20 -20 0\nv 2 -20 1\nv 2 20 1\nv -20 20 0\nf 1 2 3 4\n";
+  text += "o east\nv 2 -20 1\nv 30 -20 3\nv 30 20 3\nv 2 20 1\nf 5 6 7 8\n";
+  int first = 9;
+  for (const int x : {-10, 10}) {
+    text += fmt::format("o house{}\n", x);
+    for (const int z : {-1, 8})
+      for (const auto& [dx, dy] : {std::pair(0, 0), {5, 0}, {5, 5}, {0, 5}})
+        text += fmt::format("v {} {} {}\n", x + dx, dy, z);
+    for (const auto& f : {"4 3 2 1", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8", "5 6 7 8"}) {
+      std::istringstream corners(f);
+      text += "f";
+      for (int corner = 0; corners >> corner;) text += fmt::format(" {}", corner + first - 1);
+      text += "\n";
+    }
+    first += 8;
+  }
+  const WorkFolder folder;
+  const auto [study, written] =
+      begun(folder, {.model = folder.write("town.obj", text), .at = "52 4"});
+  ASSERT_EQ(study.scene.land.size(), 2u) << written;
+  EXPECT_NE(written.find("<<< land: houses are sunk into it"), std::string::npos) << written;
+  EXPECT_NE(written.find("ground: none"), std::string::npos) << written;
+  const WorkFolder other;
+  EXPECT_EQ(begun(other, {.model = other.write("block.obj", block_on_ground()), .at = "52 4"})
+                .second.find("land:"),
+            std::string::npos);
+}
+
 TEST(Init, AModelThatLiesOnItsSideIsStoodUp) {
   const WorkFolder folder;
   const auto [study, text] =
