@@ -3,7 +3,6 @@
 #include "solver/mesh/mesh_pilot.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "solver/base/rng.h"
@@ -35,6 +34,10 @@ Moments moments(const std::array<std::vector<double>, halves_of_light>& at_point
   for (std::size_t s = 0; s < n; ++s)
     variance += (at_point[0][s] - mean[0]) * (at_point[1][s] - mean[1]);
   return {(mean[0] + mean[1]) / 2, variance / static_cast<double>(n - 1)};
+}
+
+bool passes_any(const RayCaster::Shares& shares) {
+  return std::any_of(shares.begin(), shares.end(), [](float share) { return share > 0; });
 }
 
 }  // namespace
@@ -126,7 +129,7 @@ void MeshPilot::look_for_suns(const PilotPoints& points, ElementLoad& load) cons
             [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [cos_theta, direction] : suns)
     for (const Packet& packet : points.packets)
-      if (caster_.unoccluded(packet, direction, all_rays) != 0) {
+      if (passes_any(caster_.passed_each(packet, same_for_all(direction), all_rays))) {
         load.sees_sun = true;
         load.largest_cosine = cos_theta;
         return;
@@ -201,6 +204,8 @@ MeshPilot::LuminaireLoad MeshPilot::beams(const PilotPoints& points) const {
 /// meets, and dA = r² / cosθ dω,
 ///
 ///     mean E = 1/A ∫ I V dω,    mean E² = 1/A ∫ I V E dω
+///
+/// V is the share that passes.
 void MeshPilot::add_beam(const PilotPoints& points, const Luminaire& luminaire,
                          const LuminaireView& view, LuminaireLoad& load) const {
   const double height = dot(points.normal, luminaire.position - points.corners[0]);
@@ -224,10 +229,12 @@ void MeshPilot::add_beam(const PilotPoints& points, const Luminaire& luminaire,
       facing |= 1u << s;
     }
     if (facing == 0) continue;
-    for (auto lit = caster_.unoccluded_up_to(origins, ways, facing); lit != 0; lit &= lit - 1) {
-      const auto s = static_cast<std::size_t>(std::countr_zero(lit));
-      mean += light_.lamp_time_s * weight[s];
-      squares += light_.lamp_time_s * weight[s] * E[s];
+    const auto shares = caster_.passed_up_to(origins, ways, facing);
+    for (std::size_t s = 0; s < packet_size; ++s) {
+      if (!(facing >> s & 1u)) continue;
+      const auto V = static_cast<double>(shares[s]);
+      mean += light_.lamp_time_s * weight[s] * V;
+      squares += light_.lamp_time_s * weight[s] * V * E[s] * V;
     }
   }
   load.mean += mean;
@@ -254,8 +261,9 @@ void MeshPilot::add_luminaires(const PilotPoints& points,
       facing |= 1u << r;
     }
     if (facing == 0) continue;
-    for (auto lit = caster_.unoccluded_up_to(origins, ways, facing); lit != 0; lit &= lit - 1)
-      sum[std::countr_zero(lit)] += light_.lamp_time_s * E[std::countr_zero(lit)];
+    const auto shares = caster_.passed_up_to(origins, ways, facing);
+    for (std::size_t r = 0; r < packet_size; ++r)
+      if (facing >> r & 1u) sum[r] += light_.lamp_time_s * E[r] * static_cast<double>(shares[r]);
   }
 }
 

@@ -3,7 +3,6 @@
 #include "solver/mesh/pilot_sight.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -77,11 +76,14 @@ void PilotSight::add_suns(const RayCaster& caster, const std::vector<PeriodSun>&
   for (const PeriodSun& sun : suns) {
     const double cos_theta = dot(points_.normal, sun.direction);
     if (cos_theta <= 0) continue;
-    auto lit = caster.unoccluded(points_.packets[packet], sun.direction, all_rays);
-    if (lit == 0) continue;
-    sees_sun_ = true;
-    largest_cosine_ = std::max(largest_cosine_, cos_theta);
-    for (; lit != 0; lit &= lit - 1) sum[std::countr_zero(lit)] += sun.exposure * cos_theta;
+    const auto shares =
+        caster.passed_each(points_.packets[packet], same_for_all(sun.direction), all_rays);
+    for (std::size_t r = 0; r < packet_size; ++r) {
+      if (shares[r] <= 0) continue;
+      sees_sun_ = true;
+      largest_cosine_ = std::max(largest_cosine_, cos_theta);
+      sum[r] += sun.exposure * cos_theta * static_cast<double>(shares[r]);
+    }
   }
 }
 

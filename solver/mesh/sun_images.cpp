@@ -29,7 +29,11 @@ Vec3 along(const SunImage& image, Vec3 p) {
 
 SunImages::SunImages(const Scene& scene, const RayCaster& caster, const PeriodLight& light,
                      std::uint64_t seed)
-    : scene_(scene), caster_(caster), seed_(seed), mirrors_(scene) {
+    : scene_(scene),
+      caster_(caster),
+      seed_(seed),
+      has_screens_(!screens(scene).transmittance.empty()),
+      mirrors_(scene) {
   for (std::size_t g = 0; g < mirrors_.size(); ++g) {
     mirror_area_m2_.push_back(0);
     for (const auto t : mirrors_[g].triangles)
@@ -101,30 +105,48 @@ bool SunImages::can_be_seen(const SunImage& image, const RayCorners& corners) co
          box.low.y <= mirrors.high.y && box.high.y >= mirrors.low.y && box.low.z <= mirrors.high.z;
 }
 
-/// What a ray towards the image of a sun meets first is a mirror of that orientation, and sees the
-/// sun itself.
+/// Only mirrors of the image's orientation count. Chance at screens would be the same for both
+/// halves of the light and pass for light that varies: there single rays tell shares.
+SunImages::OnMirrors SunImages::mirrors_met(const SunImage& image, const Packet& from) const {
+  OnMirrors met{};
+  const auto take = [&](std::size_t r, const Hit& hit, double share) {
+    const bool is_known = (met.rays >> r & 1u) != 0;  // the nearest counts
+    if (is_known || mirrors_.of_side(hit.triangle, hit.front) != image.group) return;
+    const Vec3 n = met_normal(scene_.mesh, hit);
+    put(met.points, r, lifted_point(scene_.mesh, hit, n, caster_.offset_m()));
+    met.triangle[r] = hit.triangle;
+    met.share[r] = static_cast<float>(share);
+    met.rays |= 1u << r;
+  };
+  if (has_screens_) {
+    for (std::size_t r = 0; r < packet_size; ++r)
+      for (const auto& taker : caster_.takers(at(from, r), image.direction))
+        take(r, taker.hit, taker.share);
+    return met;
+  }
+  const PacketHits hits = caster_.first_hits(from, image.direction, all_rays);
+  for (std::size_t r = 0; r < packet_size; ++r)
+    if (const Hit hit = hits[r]; !hit.left_scene()) take(r, hit, 1);
+  return met;
+}
+
+/// What a ray towards the image of a sun meets is a mirror of that orientation, and sees the sun
+/// itself.
 void SunImages::add(const std::vector<SunImage>& images, const RayCorners& corners,
                     const Packet& points, Vec3 normal, double* sum) const {
   for (const SunImage& image : images) {
     const double cos_theta = dot(normal, image.direction);
     if (cos_theta <= 0 || !can_be_seen(image, corners)) continue;
-    const PacketHits hits = caster_.first_hits(points, image.direction, all_rays);
-    Packet origins{};
-    std::uint32_t on_mirror = 0;
-    for (std::size_t r = 0; r < packet_size; ++r) {
-      const Hit hit = hits[r];
-      if (hit.left_scene() || mirrors_.of_side(hit.triangle, hit.front) != image.group) continue;
-      const Vec3 n = met_normal(scene_.mesh, hit);
-      put(origins, r, lifted_point(scene_.mesh, hit, n, caster_.offset_m()));
-      on_mirror |= 1u << r;
-    }
-    if (on_mirror == 0) continue;
-    for (auto lit = caster_.unoccluded(origins, image.sun, on_mirror); lit != 0; lit &= lit - 1) {
-      const auto r = static_cast<std::size_t>(std::countr_zero(lit));
-      const double cos_at_mirror =
-          dot(mirrors_[static_cast<std::size_t>(image.group)].normal, image.sun);
-      sum[r] +=
-          image.exposure * cos_theta * mirrors_.weight_of_hit(hits.triangle[r], cos_at_mirror);
+    const OnMirrors met = mirrors_met(image, points);
+    if (met.rays == 0) continue;
+    const auto lit = caster_.passed_each(met.points, same_for_all(image.sun), met.rays);
+    const double cos_at_mirror =
+        dot(mirrors_[static_cast<std::size_t>(image.group)].normal, image.sun);
+    for (auto rays = met.rays; rays != 0; rays &= rays - 1) {
+      const auto r = static_cast<std::size_t>(std::countr_zero(rays));
+      sum[r] += image.exposure * cos_theta *
+                mirrors_.weight_of_hit(met.triangle[r], cos_at_mirror) *
+                static_cast<double>(met.share[r]) * static_cast<double>(lit[r]);
     }
   }
 }

@@ -44,6 +44,14 @@ class SunImages {
            Vec3 normal, double* sum) const;
 
  private:
+  /// What rays towards an image meet of its mirrors.
+  struct OnMirrors {
+    std::int32_t triangle[packet_size];
+    Packet points;              ///< off the mirrors
+    RayCaster::Shares share{};  ///< of each ray, by what stands before the mirrors
+    std::uint32_t rays = 0;     ///< that meet one (bit r: ray r)
+  };
+  OnMirrors mirrors_met(const SunImage& image, const Packet& from) const;
   void add_images(const PeriodLight& light, const std::vector<PeriodSun>& suns, std::size_t half);
   SunImage image(const PeriodSun& sun, std::size_t group, double probability) const;
   /// Whether rays from between the corners could meet mirrors of the image at all.
@@ -52,6 +60,7 @@ class SunImages {
   const Scene& scene_;
   const RayCaster& caster_;
   std::uint64_t seed_;
+  bool has_screens_;
   MirrorGroups mirrors_;
   std::vector<double> mirror_area_m2_;  ///< per group
   std::vector<SunImage> of_both_;

@@ -57,6 +57,58 @@ TEST(MeshPilot, LoadOfAnOpenPlateIsThatOfItsSunsAndWhatIsAround) {
   }
 }
 
+// Chance at screens would be the same for both halves of the light: it looked as if light varied,
+// and meshes of crowns were divided down to the least area.
+TEST(MeshPilot, ScreensLetTheirShareOfEveryRayPass) {
+  constexpr double T = 0.3, height = 2, flux_time = 10;
+  SceneBuilder builder;
+  const int plain = builder.material({"m", 0.3, 0, 0});
+  const int screen = builder.material({.name = "screen", .transmittance = T});
+  builder.triangle({0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, plain)
+      .sides(Sides::two)
+      .quad({-50, -50, 1}, {50, -50, 1}, {50, 50, 1}, {-50, 50, 1}, screen);
+  Scene scene = builder.scene();
+  scene.luminaires.webs = {{{0}, {0, 180}, {1, 1}}};
+  scene.luminaires.all = {Luminaire({0, 0, height}, {0, 0, -1}, 0)};
+  const ElementForest forest(scene);
+  const RayCaster caster(scene.mesh, "auto", screens(scene));
+  PeriodLight light;
+  light.sky.assign(static_cast<std::size_t>(SkyGrid().cell_count()), 0);
+  light.suns = {{normalized({0.1, -0.6, 0.4}), 100}, {normalized({-0.2, 0.1, 0.9}), 70}};
+  light.lamp_time_s = flux_time;
+  const MeshPilot pilot(forest, scene, caster, light, 1);
+  double open = flux_time / (height * height);
+  for (const PeriodSun& sun : light.suns) open += sun.exposure * sun.direction.z;
+  const ElementLoad load = pilot.load(pilot.sight(0, 0, 0.01));
+  EXPECT_NEAR(load.mean, T * open, 1e-4 * open);
+  EXPECT_NEAR(load.variance, 0, 1e-4 * open * open);
+  EXPECT_TRUE(load.sees_sun);
+}
+
+// The sun goes through the screen to the mirror and once more on its way back.
+TEST(MeshPilot, ScreensBeforeMirrorsLetTheirSharePass) {
+  constexpr double T = 0.4, reflectance = 0.8;
+  SceneBuilder builder;
+  const int plain = builder.material({"m", 0.3, 0, 0});
+  const int mirror = builder.material({"mirror", 0, reflectance, 0});
+  const int screen = builder.material({.name = "screen", .transmittance = T});
+  builder.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, plain)
+      .quad({5, -10, 0}, {5, -10, 20}, {5, 10, 20}, {5, 10, 0}, mirror)
+      .sides(Sides::two)
+      .quad({3, -10, 0}, {3, -10, 20}, {3, 10, 20}, {3, 10, 0}, screen);
+  const Scene scene = builder.scene();
+  const ElementForest forest(scene);
+  const RayCaster caster(scene.mesh, "auto", screens(scene));
+  PeriodLight light;
+  light.sky.assign(static_cast<std::size_t>(SkyGrid().cell_count()), 0);
+  light.suns = {{normalized({-1, 0.1, 0.5}), 100}};
+  const MeshPilot pilot(forest, scene, caster, light, 1);
+  const double truth = T * T * reflectance * light.suns[0].exposure * light.suns[0].direction.z;
+  const ElementLoad load = pilot.load(pilot.sight(0, 0, 0.01));
+  EXPECT_NEAR(load.glint_mean, truth, float_rounding * truth);
+  EXPECT_NEAR(load.glint_variance, 0, float_rounding * truth * truth);
+}
+
 // Of a beam that falls between the points of a large element: a spot of even light on the rest.
 TEST(MeshPilot, SeesTheSpotOfANarrowBeam) {
   SceneBuilder builder;
