@@ -354,7 +354,7 @@ VariantJob::Merging VariantJob::merge() {
       say("wrote " + folder_.result() + "\n" + energy_text(ResultReader(folder_.result())));
     return merging;
   } catch (const InputError&) {
-    if (is_merged()) return Merging::by_another;
+    if (has_result()) return Merging::by_another;
     const MissingBatches damaged = folder_.missing_batches();
     if (damaged.numbers.empty()) throw;
     for (const auto& reason : damaged.reasons) work_.progress.warn("warning: " + reason);
@@ -364,7 +364,7 @@ VariantJob::Merging VariantJob::merge() {
                       list_text(damaged.numbers)));
     return Merging::incomplete;
   } catch (const MachineError&) {
-    if (is_merged()) return Merging::by_another;
+    if (has_result()) return Merging::by_another;
     if (!batches_vanish()) throw;
     return Merging::incomplete;
   }

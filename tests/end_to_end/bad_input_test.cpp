@@ -322,6 +322,12 @@ TEST(MachineLimits, FilesThatCannotGrow) {
     failed += ran.code == 3 ? 1 : 0;
     const Ran again = program(small.folder, {"run", "square.yaml", "--resume"});
     EXPECT_EQ(again.code, 0) << again.err;
+    // The result that is to be replaced is none that somebody else has merged meanwhile.
+    const Ran anew = program(
+        small.folder,
+        {"run", "square.yaml", "--overwrite", "--time-limit", "1", "--progress", "none"}, limits);
+    EXPECT_EQ(anew.code, 3) << share << anew.err;
+    expect_problems(anew, {"cannot write"});
     EXPECT_EQ(different_data(small.folder / "results/square/baseline.h5", expected),
               std::vector<std::string>{});
   }
