@@ -266,9 +266,8 @@ std::string land_text(const InitRules& rules) {
   std::string names;
   for (const auto& name : rules.land) names += (names.empty() ? "" : ", ") + quoted(name);
   return fmt::format(
-      "  # {} land: houses are sunk into it, what lies below is covered; take the line out where "
-      "it "
-      "is no terrain\n  land: [{}]\n",
+      "  # {} land: houses are sunk into it, what lies below is covered; take the line out where\n"
+      "  # it is no terrain\n  land: [{}]\n",
       mark, names);
 }
 
