@@ -42,7 +42,8 @@ def check(sunload, folder, file, repair, at_least):
     with open(study, "w") as text:
         text.write(STUDY.format(file=file, repair=repair))
     output, seconds, memory = run([sunload, "check", study, "--json"])
-    variant = json.loads(output[output.index("{"):])["variants"][0]
+    # After what it warns of, which may have braces as well.
+    variant = json.loads(output[("\n" + output).index("\n{"):])["variants"][0]
     print(f"{file:16} repair {repair:5} {variant['patches']:9} patches {seconds[0]:6.1f} s "
           f"({seconds[1]:.1f} s of processors) {memory / 1e9:5.2f} GB", flush=True)
     assert variant["patches"] >= at_least, variant
