@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -28,13 +29,13 @@ struct FootPoint {
 class OpenBelowHouses {
  public:
   OpenBelowHouses(const Mesh& mesh, const Bodies& bodies,
-                  const std::vector<std::uint8_t>& is_opaque, std::vector<std::uint8_t>& is_solid,
+                  const std::vector<std::uint8_t>& is_opaque,
+                  const std::vector<std::uint8_t>& are_opaque, std::vector<std::uint8_t>& is_solid,
                   double contact)
       : mesh_(mesh), bodies_(bodies), is_solid_(is_solid), contact_(contact) {
     const OpenBelow open_below(mesh, bodies);
     feet_.resize(bodies.bodies.size());
     is_house_.assign(bodies.bodies.size(), 0);
-    const std::vector<std::uint8_t> are_opaque = opaque_bodies(bodies, is_opaque);
     for (std::size_t b = 0; b < is_house_.size(); ++b)
       is_house_[b] = are_opaque[b] && open_below.has(static_cast<std::int32_t>(b)) &&
                      !is_land(mesh.object_kinds[bodies.bodies[b].object.index()]);
@@ -45,7 +46,7 @@ class OpenBelowHouses {
 
   /// Some stand on others, so as often as one more is found.
   void find_solids() {
-    if (std::ranges::count(is_house_, 1) == 0) return;
+    if (!land_) return;
     std::vector<std::size_t> others;
     for (std::size_t b = 0; b < is_house_.size(); ++b) {
       if (!is_house_[b]) continue;
@@ -96,7 +97,7 @@ class OpenBelowHouses {
   void find_land(const std::vector<std::uint8_t>& is_opaque) {
     std::vector<std::size_t> land = land_triangles(mesh_);
     std::erase_if(land, [&](std::size_t t) { return !is_opaque[t] || bodies_.is_closed(t); });
-    land_.emplace_back(mesh_, std::move(land));
+    land_.emplace(mesh_, std::move(land));
   }
 
   /// Just beside the wall, inside or outside: land may end at it.
@@ -104,8 +105,7 @@ class OpenBelowHouses {
     bool is_found = false;
     for (const double side : {1.0, -1.0}) {
       const Vec3 p = foot.at + side * beside() * foot.inward;
-      land_.front().visit_heights(p.x, p.y,
-                                  [&](std::size_t, double z) { is_found |= z >= p.z - gap(); });
+      land_->visit_heights(p.x, p.y, [&](std::size_t, double z) { is_found |= z >= p.z - gap(); });
     }
     return is_found;
   }
@@ -143,7 +143,7 @@ class OpenBelowHouses {
   double contact_;
   std::vector<std::uint8_t> is_house_;        ///< per body
   std::vector<std::vector<FootPoint>> feet_;  ///< per body
-  std::vector<PlanTriangles> land_;           ///< one, where there are houses
+  std::optional<PlanTriangles> land_;         ///< where there are houses
   std::vector<std::size_t> triangle_;         ///< of the tree
   BoxTree tree_;
 };
@@ -152,10 +152,11 @@ class OpenBelowHouses {
 
 std::vector<std::uint8_t> solid_bodies(const Mesh& mesh, const Bodies& bodies,
                                        const std::vector<std::uint8_t>& is_opaque, double contact) {
-  std::vector<std::uint8_t> is_solid = opaque_bodies(bodies, is_opaque);
+  const std::vector<std::uint8_t> are_opaque = opaque_bodies(bodies, is_opaque);
+  std::vector<std::uint8_t> is_solid = are_opaque;
   for (std::size_t b = 0; b < is_solid.size(); ++b)
     if (!bodies.bodies[b].is_closed || bodies.bodies[b].is_inside_out) is_solid[b] = 0;
-  OpenBelowHouses(mesh, bodies, is_opaque, is_solid, contact).find_solids();
+  OpenBelowHouses(mesh, bodies, is_opaque, are_opaque, is_solid, contact).find_solids();
   return is_solid;
 }
 

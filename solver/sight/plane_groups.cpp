@@ -123,16 +123,17 @@ bool may_be_together(std::span<const SmallElement> alike, const Elements& elemen
   if (alike.size() == 1 || face == SunFaces::none ||
       faces.corners(face).size() > PlaneGroups::most_corners)
     return false;
-  const Vec3 normal = elements.normal(alike.front());
   std::size_t patches = 0;
-  for (const SmallElement& small : alike) {
+  for (const SmallElement& small : alike) patches += elements.patches_in(small.element);
+  if (patches > most_patches) return false;
+  const Vec3 normal = elements.normal(alike.front());
+  return std::all_of(alike.begin(), alike.end(), [&](const SmallElement& small) {
     if (norm(elements.normal(small) - normal) > same_normal) return false;
     for (std::size_t k = 0; k < 3; ++k)
       if (!is_within(faces.corners(face), faces.normal(face), elements.corner(small.element, k)))
         return false;
-    patches += elements.patches_in(small.element);
-  }
-  return patches <= most_patches;
+    return true;
+  });
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 /// The map that footprints lie on, in metres.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,11 +12,6 @@
 #include "io/base/gdal.h"
 
 namespace sunload {
-
-struct DestroyFeature {
-  void operator()(void* feature) const { gdal::OGR_F_Destroy(feature); }
-};
-using GdalFeature = std::unique_ptr<void, DestroyFeature>;
 
 class FootprintMap {
  public:

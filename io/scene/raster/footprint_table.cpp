@@ -69,7 +69,7 @@ std::string FootprintTable::columns_in_words() const {
 }
 
 /// -1: there is none.
-int FootprintTable::column(const std::string& wanted, const Names& usual, const char* what) {
+int FootprintTable::column(const std::string& wanted, UsualNames usual, const char* what) {
   if (!wanted.empty()) {
     const auto found = std::find(columns_.begin(), columns_.end(), wanted);
     if (found == columns_.end())
@@ -84,7 +84,7 @@ int FootprintTable::column(const std::string& wanted, const Names& usual, const 
 }
 
 /// The first of these that there is; -1: none.
-int FootprintTable::usual_column(const Names& usual) const {
+int FootprintTable::usual_column(UsualNames usual) const {
   for (const auto name : usual)
     for (std::size_t k = 0; k < columns_.size(); ++k)
       if (lower_case(columns_[k]) == name) return static_cast<int>(k);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,13 +43,13 @@ class FootprintTable {
   std::string warning(std::size_t all) const;
 
  private:
-  /// Usual names of columns, the more telling first; lower case.
-  using Names = std::vector<std::string_view>;
+  /// Of columns, the more telling first; lower case.
+  using UsualNames = std::span<const std::string_view>;
   /// Storeys with a comma may be a list.
   enum class Commas { decimal, unknown };
 
-  int column(const std::string& wanted, const Names& usual, const char* what);
-  int usual_column(const Names& usual) const;
+  int column(const std::string& wanted, UsualNames usual, const char* what);
+  int usual_column(UsualNames usual) const;
   std::string columns_in_words() const;
   std::optional<WrittenLength> written(OGRFeatureH feature, int column, Commas commas);
   std::optional<double> number(OGRFeatureH feature, int column);

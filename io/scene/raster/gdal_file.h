@@ -34,6 +34,12 @@ struct CloseDataset {
 };
 using GdalDataset = std::unique_ptr<void, CloseDataset>;
 
+/// Frees a feature of a layer.
+struct DestroyFeature {
+  void operator()(void* feature) const { gdal::OGR_F_Destroy(feature); }
+};
+using GdalFeature = std::unique_ptr<void, DestroyFeature>;
+
 /// Null where none of these drivers reads it. No other is tried: some follow links to elsewhere.
 /// `flags`: GDAL_OF_RASTER or GDAL_OF_VECTOR.
 GdalDataset open_with_gdal(const std::string& path, unsigned flags,
