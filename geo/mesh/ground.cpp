@@ -374,7 +374,8 @@ class GroundMaker {
         if (gap.gap_m <= longest_drawn_m) gap.gap_m = std::min(gap.gap_m, 0.0);
       }
       if (foot.stance == Stance::ground) gaps.push_back(gap);
-      if (foot.stance == Stance::hovering) r.hovering.push_back(gap);
+      if (foot.stance == Stance::hovering && std::abs(gap.gap_m) > floating_m)
+        r.hovering.push_back(gap);
     }
     r.standing = gaps.size();
     const auto by_size = [](const FootGap& a, const FootGap& b) {

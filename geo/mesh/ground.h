@@ -53,9 +53,10 @@ struct GroundReport {
   /// Objects that nothing says are houses (signs, bridges?), drawn by more than `floating_m`: the
   /// longest first.
   std::vector<FootGap> drawn_far;
-  std::size_t floating = 0;       ///< bodies more than `floating_m` above it
-  std::vector<FootGap> worst;     ///< at most ten, the largest |gap| first
-  std::vector<FootGap> hovering;  ///< all that no ground can go through, likewise
+  std::size_t floating = 0;    ///< bodies more than `floating_m` above it
+  std::vector<FootGap> worst;  ///< at most ten, the largest |gap| first
+  /// All that no ground goes through, by more than `floating_m`, likewise.
+  std::vector<FootGap> hovering;
 };
 
 /// Where bodies stand before the ground is there: what `decide_surfaces` asks.

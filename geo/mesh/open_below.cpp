@@ -11,9 +11,8 @@ OpenBelow::OpenBelow(const Mesh& mesh, const Bodies& bodies)
     is_open[t] = bodies.triangle_body[t] >= 0 && !bodies.is_closed(t) && !bodies.is_inner(t);
   }
   for_each_edge(edge_uses(mesh, is_open), [&](std::span<const EdgeUse> uses) {
-    const bool is_foot = uses.size() == 1 && is_foot_of_wall(mesh, uses[0]);
-    if (is_foot || goes_on(uses)) return;
-    for (const EdgeUse& use : uses) is_house_[body(use.triangle())] = 0;
+    for (const EdgeUse& use : uses)
+      if (!is_foot_or_goes_on(use, uses)) is_house_[body(use.triangle())] = 0;
   });
   const std::vector<double> volumes = volumes_above_foot(is_open);
   for (std::size_t b = 0; b < is_house_.size(); ++b)
@@ -21,10 +20,17 @@ OpenBelow::OpenBelow(const Mesh& mesh, const Bodies& bodies)
       is_house_[b] = 0;
 }
 
-/// Two of one body, one of which walks the edge up and the other down.
-bool OpenBelow::goes_on(std::span<const EdgeUse> uses) const {
-  return uses.size() == 2 && body(uses[0].triangle()) == body(uses[1].triangle()) &&
-         walks_up(mesh_, uses[0]) != walks_up(mesh_, uses[1]);
+/// It is the only one of its body, and a foot, or there are two, one of which walks the edge up and
+/// the other down. (Eaves go on beyond the house, and are a body of their own.)
+bool OpenBelow::is_foot_or_goes_on(const EdgeUse& use, std::span<const EdgeUse> uses) const {
+  const EdgeUse* partner = nullptr;
+  for (const EdgeUse& other : uses) {
+    if (other.half_edge == use.half_edge || body(other.triangle()) != body(use.triangle()))
+      continue;
+    if (partner) return false;
+    partner = &other;
+  }
+  return partner ? walks_up(mesh_, use) != walks_up(mesh_, *partner) : is_foot_of_wall(mesh_, use);
 }
 
 /// As if each body were closed at its lowest point, times 6.

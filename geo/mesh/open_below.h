@@ -27,7 +27,7 @@ class OpenBelow {
   std::size_t body(std::size_t t) const {
     return static_cast<std::size_t>(bodies_.triangle_body[t]);
   }
-  bool goes_on(std::span<const EdgeUse> uses) const;
+  bool is_foot_or_goes_on(const EdgeUse& use, std::span<const EdgeUse> uses) const;
   std::vector<double> volumes_above_foot(const std::vector<std::uint8_t>& asked) const;
 
   const Mesh& mesh_;

@@ -8,9 +8,10 @@
 #include <span>
 
 #include "geo/base/units.h"
+#include "geo/mesh/apart_faces.h"
 #include "geo/mesh/box_tree.h"
+#include "geo/mesh/edge_table.h"
 #include "geo/mesh/facing_links.h"
-#include "geo/mesh/inner_faces.h"
 
 namespace sunload {
 
@@ -216,23 +217,56 @@ void append(const Bodies& more, Bodies& bodies) {
   bodies.bodies.insert(bodies.bodies.end(), more.bodies.begin(), more.bodies.end());
 }
 
-/// Of the triangles of a mesh with a flag.
-Bodies inner_bodies(Mesh& mesh, const std::vector<std::uint8_t>& inner) {
-  Bodies found =
-      Orienter(mesh, group(mesh, link_edges(mesh, inner), inner), Winding::keep).finish(mesh);
-  for (Body& body : found.bodies) body.is_inner = true;
-  return found;
+/// Of the triangles of a mesh with a flag, as the file has them.
+Bodies bodies_of(Mesh& mesh, const std::vector<std::uint8_t>& flags) {
+  return Orienter(mesh, group(mesh, link_edges(mesh, flags), flags), Winding::keep).finish(mesh);
+}
+
+/// Turns loose bodies to look where the closed ones look that they go on from, such as eaves from
+/// the roof. Returns the triangles turned.
+std::size_t turn_loose(Mesh& mesh, const Bodies& all, const std::vector<std::uint8_t>& loose) {
+  constexpr double least_cosine = 0.9;  // of what goes on
+  std::vector<double> agree_m(all.bodies.size(), 0);
+  const std::vector<std::uint8_t> included(mesh.triangle_count(), 1);
+  for_each_edge(edge_uses(mesh, included), [&](std::span<const EdgeUse> uses) {
+    for (const EdgeUse& use : uses) {
+      const std::size_t t = use.triangle();
+      if (!loose[t]) continue;
+      double cosine = 0;
+      for (const EdgeUse& other : uses)
+        if (const double c = dot(mesh.normal(t), mesh.normal(other.triangle()));
+            all.is_closed(other.triangle()) && std::abs(c) > std::abs(cosine))
+          cosine = c;
+      if (std::abs(cosine) < least_cosine) continue;
+      const double length = norm(mesh.vertices[static_cast<std::size_t>(use.high)] -
+                                 mesh.vertices[static_cast<std::size_t>(use.low)]);
+      agree_m[static_cast<std::size_t>(all.triangle_body[t])] += cosine > 0 ? length : -length;
+    }
+  });
+  std::size_t turned = 0;
+  for (std::size_t t = 0; t < loose.size(); ++t) {
+    if (!loose[t] || !(agree_m[static_cast<std::size_t>(all.triangle_body[t])] < 0)) continue;
+    std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    ++turned;
+  }
+  return turned;
 }
 
 }  // namespace
 
 Bodies orient(Mesh& mesh, const std::vector<std::uint8_t>& faced_both_ways, Winding winding) {
-  std::vector<std::uint8_t> included(mesh.triangle_count(), 1), inner(mesh.triangle_count(), 0);
+  std::vector<std::uint8_t> included(mesh.triangle_count(), 1);
   Links links = link_edges(mesh, included);
-  if (winding == Winding::turn && links.nonmanifold_edges > 0) inner = inner_faces(mesh);
-  const bool has_inner = std::ranges::count(inner, 1) > 0;
-  if (has_inner) {
-    for (std::size_t t = 0; t < included.size(); ++t) included[t] = inner[t] == 0;
+  ApartFaces apart{std::vector<std::uint8_t>(included.size(), 0),
+                   std::vector<std::uint8_t>(included.size(), 0)};
+  if (winding == Winding::turn && links.nonmanifold_edges > 0) apart = apart_faces(mesh);
+  const bool has_inner = std::ranges::count(apart.inner, 1) > 0;
+  const bool has_loose = std::ranges::count(apart.loose, 1) > 0;
+  if (has_inner || has_loose) {
+    for (std::size_t t = 0; t < included.size(); ++t) {
+      included[t] = apart.inner[t] == 0 && apart.loose[t] == 0;
+      if (faced_both_ways[t]) apart.loose[t] = 0;  // of no body
+    }
     links = link_edges(mesh, included);
   }
   Orienter orienter(mesh, group(mesh, links, included), winding);
@@ -249,9 +283,17 @@ Bodies orient(Mesh& mesh, const std::vector<std::uint8_t>& faced_both_ways, Wind
   } else {
     result = orienter.finish(mesh);
   }
-  if (has_inner) append(inner_bodies(mesh, inner), result);
   result.open_edges = links.open_edges;
   result.nonmanifold_edges = links.nonmanifold_edges;
+  if (has_inner) {
+    Bodies inner = bodies_of(mesh, apart.inner);
+    for (Body& body : inner.bodies) body.is_inner = true;
+    append(inner, result);
+  }
+  if (has_loose) {
+    append(bodies_of(mesh, apart.loose), result);
+    result.triangles_flipped += turn_loose(mesh, result, apart.loose);
+  }
   return result;
 }
 

@@ -63,8 +63,9 @@ struct Bodies {
 /// body inside another one of the same object, a cavity, keeps the winding that
 /// it has in the file relative to the body around it.
 ///
-/// Faces between the cells of a body that is divided (geo/mesh/inner_faces) are no part of it with
-/// `turn`: they are bodies of their own.
+/// With `turn` faces between the cells of a divided body, and what goes on beyond a body (eaves),
+/// are no part of it but bodies of their own (geo/mesh/apart_faces), open ones; the latter look
+/// where the body looks that they go on from.
 ///
 /// Where `faced_both_ways` is not 0 a front and a back share the triangle. It
 /// belongs to a body only if that body is closed by it: else it is left out and

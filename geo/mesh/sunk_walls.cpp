@@ -89,7 +89,8 @@ class Sheets {
   bool is_sheet(std::size_t t) const {
     return bodies_.triangle_body[t] >= 0 && !bodies_.is_closed(t) && !bodies_.is_inner(t) &&
            mesh_.object_kinds[mesh_.triangle_object[t].index()].empty() &&
-           mesh_.triangle_surface[t] != Surface::ground && slope_of(mesh_, t) == Slope::upward;
+           mesh_.triangle_surface[t] != Surface::ground &&
+           mesh_.triangle_surface[t] != Surface::roof && slope_of(mesh_, t) == Slope::upward;
   }
 
   const Mesh& mesh_;

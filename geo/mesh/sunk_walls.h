@@ -17,10 +17,10 @@ struct SunkWalls {
   std::string wall;    ///< object with most of it
 };
 
-/// A sheet counts where it looks up, is neither ground nor of any type that a city model gives, and
-/// reaches beyond the wall's body on all sides, which stands out of it: balconies and leaves do
-/// not. It has no walls of its own, and nothing stands below it, as under a roof. `mesh` has its
-/// kinds of surface. Cost: a look at what is above each wall.
+/// A sheet counts where it looks up, is neither ground nor roof nor of any type that a city model
+/// gives, and reaches beyond the wall's body on all sides, which stands out of it: balconies and
+/// leaves do not. It has no walls of its own, and nothing stands below it, as under a roof. `mesh`
+/// has its kinds of surface. Cost: a look at what is above each wall.
 SunkWalls find_sunk_walls(const Mesh& mesh, const Bodies& bodies);
 
 }  // namespace sunload

@@ -7,6 +7,7 @@
 
 #include "geo/mesh/open_below.h"
 #include "geo/mesh/plan_triangles.h"
+#include "geo/mesh/roof_sheets.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -59,6 +60,7 @@ class Decision {
         kind_(kind),
         standing_(standing),
         open_below_(mesh, bodies),
+        is_roof_(roof_sheets(mesh, bodies)),
         of_object_(mesh.object_names.size()) {
     for (const auto& body : bodies.bodies) of_object_[body.object.index()].add(body.box);
   }
@@ -102,8 +104,8 @@ class Decision {
       return s == Slope::downward ? Surface::other : Surface::ground;
     if (is_plant(word)) return Surface::other;
     if (kind_ == SceneKind::plain && !is_closed && s != Slope::upright)
-      return s == Slope::upward && open_below_.has(bodies_.triangle_body[t]) ? Surface::roof
-                                                                             : Surface::other;
+      return s == Slope::upward && is_roof_of_open_house(bodies_.triangle_body[t]) ? Surface::roof
+                                                                                   : Surface::other;
     if (s == Slope::upright) return Surface::wall;
     if (body && body->is_inside_out) return Surface::other;
     if (s == Slope::upward) return Surface::roof;
@@ -111,6 +113,10 @@ class Decision {
     if (kind_ == SceneKind::city && !is_on_body(t) && !may_hang(t)) return Surface::floor;
     low_faces_.push_back(t);
     return Surface::other;
+  }
+
+  bool is_roof_of_open_house(std::int32_t body) const {
+    return body >= 0 && (open_below_.has(body) || is_roof_[static_cast<std::size_t>(body)] != 0);
   }
 
   Heights heights_of(const Body& body) const {
@@ -174,6 +180,7 @@ class Decision {
   SceneKind kind_;
   const Standing& standing_;
   OpenBelow open_below_;
+  std::vector<std::uint8_t> is_roof_;  ///< per body: a sheet that walls hold
   std::vector<Heights> of_object_;
   std::vector<std::size_t> low_faces_;
 };

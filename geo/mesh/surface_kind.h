@@ -23,6 +23,7 @@ inline constexpr double touching_ratio = 0.005;
 /// | open land (terrain, roads, water, …) | ground | ground | other |
 /// | plants of a city | other | other | other |
 /// | house without a floor of a plain file | wall | roof | other |
+/// | sheet of a plain file on walls (geo/mesh/roof_sheets) | wall | roof | other |
 /// | other open sheet of a plain file | wall | other | other |
 ///
 /// A house without a floor is open along lower edges of its walls and nowhere else, and its fronts

@@ -140,16 +140,28 @@ TEST(Orient, CubesThatShareAnEdgeCloseInAnyWinding) {
   }
 }
 
-TEST(Orient, AFinOnABodyLeavesItOpenAndIsCounted) {
+TEST(Orient, AFinOnABodyIsASheetOfItsOwn) {
   const auto p = ModelBuilder()
                      .object("a")
                      .box({0, 0, 0}, {1, 1, 1})
                      .ring({{1, 0, 0}, {2, 0, 0}, {2, 0, 1}, {1, 0, 1}})
                      .prepared();
+  EXPECT_EQ(p.report.nonmanifold_edges, 0u);
+  EXPECT_EQ(p.report.closed_bodies, 1u);
+  EXPECT_EQ(p.report.open_sheets, 1u);
+  EXPECT_NEAR(p.report.volume_m3, 1, orient_rounding);
+  EXPECT_EQ(p.report.triangles_flipped, 0u);
+}
+
+TEST(Orient, AFinOnAnOpenBodyIsCounted) {
+  auto builder = ModelBuilder().object("a");
+  const auto box = ModelBuilder::box_faces({0, 0, 0}, {1, 1, 1});
+  for (std::size_t k = 0; k < box.size(); ++k)
+    if (k != 1) builder.ring(box[k]);
+  const auto p = builder.ring({{1, 0, 0}, {2, 0, 0}, {2, 0, 1}, {1, 0, 1}}).prepared();
   EXPECT_EQ(p.report.nonmanifold_edges, 1u);
   EXPECT_EQ(p.report.closed_bodies, 0u);
   EXPECT_EQ(p.report.volume_m3, 0);
-  EXPECT_EQ(p.report.triangles_flipped, 0u);
   EXPECT_FALSE(p.report.warnings.empty());
 }
 

@@ -10,7 +10,7 @@
 namespace sunload::test {
 namespace {
 
-constexpr double rounding_m2 = 1e-6;
+constexpr double sunk_rounding_m2 = 1e-6;
 
 /// Half of them lie on a slope of 10 %, 50 m to each side.
 ModelBuilder slope(const std::string& kind = "") {
@@ -26,8 +26,8 @@ TEST(SunkWalls, AreThoseBelowASheetThatReachesBeyondThem) {
   const SunkWalls sunk = builder.prepared().report.sunk;
   // As high as the terrain is at their feet: of both walls along the slope at one end or the other.
   constexpr double across = 10 * (2.5 + 3.5), along_least = 2 * 10 * 2.5, along_most = 2 * 10 * 3.5;
-  EXPECT_GE(sunk.area_m2, across + along_least - rounding_m2);
-  EXPECT_LE(sunk.area_m2, across + along_most + rounding_m2);
+  EXPECT_GE(sunk.area_m2, across + along_least - sunk_rounding_m2);
+  EXPECT_LE(sunk.area_m2, across + along_most + sunk_rounding_m2);
   EXPECT_EQ(sunk.sheet, "terrain");
   EXPECT_EQ(sunk.wall, "house");
 }
