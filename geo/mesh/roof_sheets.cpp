@@ -3,10 +3,13 @@
 #include "geo/mesh/roof_sheets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
+#include "geo/mesh/box_tree.h"
 #include "geo/mesh/edge_table.h"
 #include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
@@ -23,23 +26,67 @@ constexpr double most_covered = 0.5;
 constexpr double below_m = 0.5, through_m = 0.1;
 /// From the middle of an edge to both sides, where the roof is asked for its height.
 constexpr double aside_m = 0.01;
+/// How near walls are looked for that a sheet ends at, and so far above and below.
+constexpr double on_wall_m = 0.02, parapet_m = 0.1, wall_below_m = 1;
+
+/// Upright triangles.
+class WallTriangles {
+ public:
+  WallTriangles(const Mesh& mesh, const std::vector<std::uint8_t>& are_walls) : mesh_(mesh) {
+    std::vector<Box> boxes;
+    for (std::size_t t = 0; t < are_walls.size(); ++t) {
+      if (!are_walls[t]) continue;
+      triangle_.push_back(t);
+      boxes.push_back(box_of(mesh, t));
+    }
+    tree_ = BoxTree(std::move(boxes));
+  }
+
+  /// Whether the point lies on one of them that looks against `inward`.
+  bool any_at(Vec3 p, Vec3 inward) const {
+    bool is_found = false;
+    tree_.visit_meeting(widened({p, p}, on_wall_m), [&](std::size_t i) {
+      is_found = is_found || (dot(mesh_.area_vector2(triangle_[i]), inward) < 0 &&
+                              is_on(mesh_.corners(triangle_[i]), p));
+    });
+    return is_found;
+  }
+
+ private:
+  static bool is_on(const std::array<Vec3, 3>& corners, Vec3 p) {
+    const Vec3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const double size = norm(area);
+    if (!(std::abs(dot(p - corners[0], area)) <= on_wall_m * size)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 edge = corners[(k + 1) % 3] - corners[k];
+      if (dot(cross(edge, p - corners[k]), area) < -on_wall_m * norm(edge) * size) return false;
+    }
+    return true;
+  }
+
+  const Mesh& mesh_;
+  std::vector<std::size_t> triangle_;  ///< of the tree
+  BoxTree tree_;
+};
 
 /// Areas and lengths in plan of bodies.
 class Sheets {
  public:
   Sheets(const Mesh& mesh, const Bodies& bodies)
-      : mesh_(mesh), bodies_(bodies), of_body_(bodies.bodies.size()) {
-    std::vector<std::uint8_t> is_open(mesh.triangle_count(), 0);
-    for (std::size_t t = 0; t < is_open.size(); ++t) {
+      : mesh_(mesh),
+        bodies_(bodies),
+        of_body_(bodies.bodies.size()),
+        is_of_sheet_(mesh.triangle_count(), 0) {
+    for (std::size_t t = 0; t < is_of_sheet_.size(); ++t) {
       const auto b = bodies.triangle_body[t];
       if (b < 0 || bodies.is_closed(t) || bodies.is_inner(t)) continue;
-      is_open[t] = 1;
+      is_of_sheet_[t] = 1;
       if (const auto slope = slope_of(mesh, t))
         (*slope == Slope::upward    ? of(t).upward_m2
          : *slope == Slope::upright ? of(t).upright_m2
                                     : of(t).downward_m2) += mesh.area_m2(t);
     }
-    for_each_edge(edge_uses(mesh, is_open), [&](std::span<const EdgeUse> uses) {
+    for_each_edge(edge_uses(mesh, is_of_sheet_), [&](std::span<const EdgeUse> uses) {
       if (uses.size() == 1) of(uses[0].triangle()).open_m += length_in_plan(uses[0]);
     });
   }
@@ -52,13 +99,20 @@ class Sheets {
            !is_land(mesh_.object_kinds[bodies_.bodies[body].object.index()]);
   }
 
-  /// Adds the upper edges of walls that end at such sheets.
+  /// Adds the upper edges of walls that end at such sheets, and edges of these that end at walls
+  /// which go on above, as parapets do.
   void add_walls() {
     const PlanTriangles roofs(mesh_, triangles_of_possible_roofs());
     if (roofs.empty()) return;
-    for_each_edge(edge_uses(mesh_, are_walls()), [&](std::span<const EdgeUse> uses) {
+    const std::vector<std::uint8_t> walls = are_walls();
+    for_each_edge(edge_uses(mesh_, walls), [&](std::span<const EdgeUse> uses) {
       // What goes on above it is no upper edge.
       if (uses.size() == 1 && is_top_of_wall(uses[0])) add_wall(uses[0], roofs);
+    });
+    const WallTriangles parapets(mesh_, walls);
+    for_each_edge(edge_uses(mesh_, is_of_sheet_), [&](std::span<const EdgeUse> uses) {
+      const auto b = static_cast<std::size_t>(bodies_.triangle_body[uses[0].triangle()]);
+      if (uses.size() == 1 && may_be_roof(b)) of_body_[b].held_m += length_at(parapets, uses[0]);
     });
   }
   /// Whether walls hold the body, and most of it is open to the sky.
@@ -92,7 +146,7 @@ class Sheets {
   struct Sheet {
     double upward_m2 = 0, upright_m2 = 0, downward_m2 = 0;
     double open_m = 0;  ///< its open edges
-    double held_m = 0;  ///< upper edges of walls that end at it
+    double held_m = 0;  ///< where walls end at it, or it at walls
     double covered_m2 = 0;
   };
   Sheet& of(std::size_t t) { return of_body_[static_cast<std::size_t>(bodies_.triangle_body[t])]; }
@@ -129,6 +183,20 @@ class Sheets {
         ((apex.x - low(use).x) * along.x + (apex.y - low(use).y) * along.y) / (in_plan * in_plan);
     return apex.z < low(use).z + share * along.z;
   }
+  /// Length in plan of what of a sheet's edge ends at walls that go on above and below, and look
+  /// away from the sheet. (Terrain ends at walls that look at it.)
+  double length_at(const WallTriangles& walls, const EdgeUse& use) const {
+    constexpr int pieces = 4;
+    const Vec3 apex = mesh_.corner(use.triangle(), static_cast<int>((use.corner() + 2) % 3));
+    const Vec3 along = high(use) - low(use), inward = apex - low(use) - along / 2;
+    int at_walls = 0;
+    for (int k = 0; k < pieces; ++k) {
+      const Vec3 p = low(use) + along * ((k + 0.5) / pieces);
+      at_walls += walls.any_at(p + Vec3{0, 0, parapet_m}, {inward.x, inward.y, 0}) &&
+                  walls.any_at(p - Vec3{0, 0, wall_below_m}, {inward.x, inward.y, 0});
+    }
+    return length_in_plan(use) * at_walls / pieces;
+  }
   bool is_held(std::size_t body) const {
     const Sheet& sheet = of_body_[body];
     return may_be_roof(body) && sheet.held_m > 0 && sheet.held_m >= least_held * sheet.open_m;
@@ -155,6 +223,7 @@ class Sheets {
   const Mesh& mesh_;
   const Bodies& bodies_;
   std::vector<Sheet> of_body_;
+  std::vector<std::uint8_t> is_of_sheet_;  ///< per triangle: of an open body
 };
 
 }  // namespace

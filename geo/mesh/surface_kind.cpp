@@ -60,9 +60,9 @@ class Decision {
         kind_(kind),
         standing_(standing),
         open_below_(mesh, bodies),
-        is_roof_(roof_sheets(mesh, bodies)),
         of_object_(mesh.object_names.size()) {
     for (const auto& body : bodies.bodies) of_object_[body.object.index()].add(body.box);
+    if (kind == SceneKind::plain) is_roof_ = roof_sheets(mesh, bodies);
   }
 
   void run() {
@@ -180,7 +180,7 @@ class Decision {
   SceneKind kind_;
   const Standing& standing_;
   OpenBelow open_below_;
-  std::vector<std::uint8_t> is_roof_;  ///< per body: a sheet that walls hold
+  std::vector<std::uint8_t> is_roof_;  ///< per body of a plain scene: a sheet that walls hold
   std::vector<Heights> of_object_;
   std::vector<std::size_t> low_faces_;
 };

@@ -51,8 +51,21 @@ TEST(RoofSheets, LieOnClosedHousesToo) {
   EXPECT_NEAR(roof_m2(model), 8 * 6 + 10 * 8 * slope, roof_rounding_m2);
 }
 
+TEST(RoofSheets, LieBetweenParapets) {
+  auto model = four_walls();
+  EXPECT_NEAR(roof_m2(add_plate(model, 2.2, 0)), 8 * 6, roof_rounding_m2);
+}
+
+// A terrain that is cut out around a house which is sunk into it.
+TEST(RoofSheets, AreNoTerrainThatEndsAtWalls) {
+  auto model = four_walls();
+  model.object("terrain").polygon({{{-2, -2, 2.2}, {10, -2, 2.2}, {10, 8, 2.2}, {-2, 8, 2.2}},
+                                   {{0, 0, 2.2}, {0, 6, 2.2}, {8, 6, 2.2}, {8, 0, 2.2}}});
+  EXPECT_EQ(roof_m2(model), 0);
+}
+
 TEST(RoofSheets, AreNoneThatHangHigherOrLower) {
-  for (const double z : {2.5, 3.8, 6.0}) {
+  for (const double z : {2.5, 3.8, 6.0}) {  // its edges 1 m beyond the walls
     auto model = four_walls();
     EXPECT_EQ(roof_m2(add_plate(model, z)), 0) << z;
   }
