@@ -31,12 +31,16 @@ class FacadeMeans {
     const std::size_t N = facade_.size(), F = area_.size();
     const std::size_t rows = N > 0 ? values.size() / N : 0;
     std::vector<double> means(rows * F, 0);
-    parallel_for(rows, [&](std::size_t row) {
+    // Patches of a facade follow each other: sums of several rows need not wait for each other.
+    constexpr std::size_t rows_together = 4;
+    parallel_chunks(rows, rows_together, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = 0; i < N; ++i)
         if (facade_[i] >= 0) {
           const auto f = static_cast<std::size_t>(facade_[i]);
-          const double term = patch_area_[i] * static_cast<double>(values[row * N + i]);
-          means[row * F + f] += divided == Divided::terms ? term / area_[f] : term;
+          for (std::size_t row = begin; row < end; ++row) {
+            const double term = patch_area_[i] * static_cast<double>(values[row * N + i]);
+            means[row * F + f] += divided == Divided::terms ? term / area_[f] : term;
+          }
         }
     });
     if (divided == Divided::sums)

@@ -59,8 +59,10 @@ template <class Part>
     const std::size_t last = end - 1;
     for (std::size_t r = 0; r < together; ++r) {
       const std::size_t row = std::min(i + r, last);
-      const std::uint16_t* const of_row = nodes.codes(row);
-      for (std::size_t k = 0; k < block_width; ++k) codes[r][k] = of_row[k];
+      const std::uint16_t* const __restrict of_row = nodes.codes(row);
+#pragma GCC unroll 1  // else the compiler makes it scalar
+      for (std::size_t k = 0; k < block_width; ++k)
+        codes[r][k] = static_cast<float>(static_cast<std::int32_t>(of_row[k]));
       if (next) __builtin_prefetch(next->codes(row));
     }
     Part sums[together][parts]{};
@@ -121,13 +123,16 @@ SUNLOAD_VECTOR_CODE void add_exposure(const std::vector<TimedNodes>& all, std::s
                                       std::size_t end, double* exposure) {
   constexpr std::size_t rows_ahead = 16;  // asked of memory
   for (std::size_t i = begin; i < end; ++i) {
-    double of_lanes[block_width]{};  // sums that need not wait for each other
+    alignas(64) double of_lanes[block_width]{};  // sums that need not wait for each other
     for (const TimedNodes& block : all) {
       __builtin_prefetch(block.nodes->codes(std::min(i + rows_ahead, end - 1)));
-      const std::uint16_t* const codes = block.nodes->codes(i);
+      const std::uint16_t* const __restrict codes = block.nodes->codes(i);
+      const double* const __restrict seconds = block.seconds.data();
       const auto of_row = static_cast<double>(block.nodes->of_row(i));
+#pragma GCC unroll 1  // as above
       for (std::size_t j = 0; j < block_width; ++j)
-        of_lanes[j] += static_cast<double>(static_cast<int>(codes[j])) * block.seconds[j] * of_row;
+        of_lanes[j] +=
+            static_cast<double>(static_cast<std::int32_t>(codes[j])) * seconds[j] * of_row;
     }
     double sum = exposure[i];
     for (std::size_t j = 0; j < block_width; ++j) sum += of_lanes[j];
