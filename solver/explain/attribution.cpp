@@ -193,29 +193,16 @@ class Looks {
         by_beams_.push_back(b);
   }
 
+  /// What crowns and screens let through is no chance (solver/first_light/direct_sun.h).
   void see_sun(const Packet& origins, const PacketDirections& suns, std::uint32_t active,
                std::size_t packet, double energy) {
-    if (place_.is_of_sensors) return see_sun_of_sensor(origins, suns, active, packet, energy);
-    const auto hits =
-        traced_.caster.first_hits(origins, suns, active, RayCaster::Coherence::parallel);
-    for (std::size_t l = 0; l < packet_size; ++l) {
-      if (!(active >> l & 1U)) continue;
-      const std::size_t r = receivers_.sampler.realization(packet * packet_size + l);
-      into_.add_open(Attribution::Open::sun, r, energy);
-      if (hits.triangle[l] >= 0) into_.add_flow(body_of(hits[l]), Flow::takes_sun, r, energy);
-    }
-  }
-
-  /// What crowns and screens let through is no chance (solver/first_light/direct_sun.h).
-  void see_sun_of_sensor(const Packet& origins, const PacketDirections& suns, std::uint32_t active,
-                         std::size_t packet, double energy) {
-    for (std::size_t l = 0; l < packet_size; ++l) {
-      if (!(active >> l & 1U)) continue;
-      const std::size_t r = receivers_.sampler.realization(packet * packet_size + l);
-      into_.add_open(Attribution::Open::sun, r, energy);
-      for (const auto& [hit, share] : traced_.caster.takers(at(origins, l), at(suns, l)))
-        into_.add_flow(body_of(hit), Flow::takes_sun, r, energy * share);
-    }
+    const auto realization = [&](std::size_t ray) {
+      return receivers_.sampler.realization(packet * packet_size + ray);
+    };
+    for (std::size_t l = 0; l < packet_size; ++l)
+      if (active >> l & 1U) into_.add_open(Attribution::Open::sun, realization(l), energy);
+    for (const auto& [hit, share, ray] : traced_.caster.takers_each(origins, suns, active))
+      into_.add_flow(body_of(hit), Flow::takes_sun, realization(ray), energy * share);
   }
 
   /// Back from the mirror that is seen to the one that the sun shines on (MirrorSun).
@@ -238,9 +225,8 @@ class Looks {
     into_.add_flow(*seen, Flow::mirrors, r, energy * share_of_sun(from, sun));
   }
 
-  /// That arrives: as receivers of the place take it, on patches by chance (see_sun).
+  /// That arrives (see_sun).
   double share_of_sun(Vec3 from, Vec3 sun) const {
-    if (!place_.is_of_sensors) return traced_.caster.first_hit(from, sun).left_scene() ? 1 : 0;
     double left = 1;
     for (const auto& taker : traced_.caster.takers(from, sun)) left -= taker.share;
     return left;

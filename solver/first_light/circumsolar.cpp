@@ -66,12 +66,13 @@ class PatchSkies {
       view_.sample(sampler_.points(seeds_, p), samples_);
       const std::uint32_t active = sampler_.active(p) & samples_.in_front;
       rays_ += static_cast<std::uint64_t>(std::popcount(active));
-      auto seen = caster_.unoccluded_each(sampler_.origins(geometry, seeds_, p),
-                                          samples_.directions, active);
+      const auto shares =
+          caster_.passed_each(sampler_.origins(geometry, seeds_, p), samples_.directions, active);
+      auto seen = any_passed(shares);
       any = any || seen != 0;
       for (; seen != 0; seen &= seen - 1) {
         const auto l = static_cast<std::size_t>(std::countr_zero(seen));
-        add_weighed(samples_.weight[l], mixture_.of_skies(samples_.cell[l]).data(),
+        add_weighed(shares[l] * samples_.weight[l], mixture_.of_skies(samples_.cell[l]).data(),
                     sums_[sampler_.realization(p * packet_size + l)].data());
       }
     }

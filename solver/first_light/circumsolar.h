@@ -10,9 +10,9 @@
 ///
 ///     E_circ = T/n Σ_samples V (L_circ/S) cosθ / q ,   T = ∫ S q dω
 ///
-/// Every term is ≥ 0, and 0 where nothing is seen; where all is seen there is next to no error of a
-/// sun alone, since cosθ / q is 1 but for the curvature of a cell. Light that mirrors send is left
-/// to the lines alone.
+/// V is the share that passes crowns and screens. Every term is ≥ 0, and 0 where nothing is seen;
+/// where all is seen there is next to no error of a sun alone, since cosθ / q is 1 but for the
+/// curvature of a cell. Light that mirrors send is left to the lines alone.
 #pragma once
 
 #include <cstdint>

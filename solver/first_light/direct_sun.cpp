@@ -248,27 +248,17 @@ SunSampler::NetRays SunSampler::net_rays(std::size_t receiver, const Geometry& g
   return rays;
 }
 
-RayCaster::Shares shares_of_light(const SunSampler& sampler, const RayCaster& caster,
-                                  const Packet& origins, const PacketDirections& to_sun,
-                                  std::uint32_t active) {
-  return sampler.are_points() ? caster.passed_each(origins, to_sun, active)
-                              : all_or_nothing(caster.unoccluded_each(origins, to_sun, active));
-}
-
 LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const IntervalLight& sun,
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet) {
-  return lit_samples(sampler, caster, sampler.origins(geometry, seeds, packet),
+  return lit_samples(caster, sampler.origins(geometry, seeds, packet),
                      sampler.directions(sun, seeds, packet), sampler.active(packet));
 }
 
-LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const Packet& origins,
+LitSamples lit_samples(const RayCaster& caster, const Packet& origins,
                        const PacketDirections& to_sun, std::uint32_t active) {
-  LitSamples samples{origins, to_sun, active, 0, {}};
-  samples.share = shares_of_light(sampler, caster, samples.origins, samples.to_sun, samples.active);
-  for (std::size_t l = 0; l < packet_size; ++l)
-    if (samples.share[l] > 0) samples.lit |= 1u << l;
-  return samples;
+  const auto share = caster.passed_each(origins, to_sun, active);
+  return {origins, to_sun, active, any_passed(share), share};
 }
 
 namespace {
@@ -343,7 +333,7 @@ class CloudedSuns {
     if (waiting_ == 0) return;
     const auto active = static_cast<std::uint32_t>((std::uint64_t{1} << waiting_) - 1);
     rays_ += waiting_;
-    const auto shares = shares_of_light(sampler_, caster_, origins_, to_sun_, active);
+    const auto shares = caster_.passed_each(origins_, to_sun_, active);
     for (std::size_t l = 0; l < waiting_; ++l)
       seen_[receiver_[l]] += static_cast<double>(shares[l]);
     waiting_ = 0;
@@ -356,7 +346,7 @@ class CloudedSuns {
   std::span<const IntervalLight> block_;
   Known known_;
   std::size_t begin_ = 0, end_ = 0;
-  std::vector<double> seen_;  ///< points of each receiver's net that see the sun
+  std::vector<double> seen_;  ///< points of each receiver's net that see the sun, by their shares
   std::array<std::size_t, packet_size> receiver_{};
   std::size_t waiting_ = 0;
   std::uint64_t rays_ = 0;
@@ -407,7 +397,7 @@ class ReceiverSuns {
     for (std::size_t r = 0; r < seen_.size(); ++r)
       into.add(r, receiver, k, sun.dni * cos_theta * seen_[r] / n_each);
   }
-  /// Samples that see the sun, in all, and per realization in seen_.
+  /// Samples that see the sun, by their shares, in all, and per realization in seen_.
   double count_visible(const SunSampler::Geometry& geometry, std::size_t receiver,
                        const IntervalLight& sun) {
     std::fill(seen_.begin(), seen_.end(), 0);

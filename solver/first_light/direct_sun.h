@@ -21,9 +21,10 @@
 /// quasi-Monte Carlo for discontinuous functions), and R realizations of n points each that of
 /// n^-3/2 / R. So one net of n R^(2/3) points errs as they do: half as many for R = 8.
 ///
-/// All rays of a sensor to a sun without a disk are the same ray. So each of them brings the share
-/// of light that passes the crowns and screens that it crosses, whereas a ray of a patch passes
-/// them or is stopped by chance.
+/// A ray brings the share of light that passes the crowns and screens that it crosses: behind one
+/// that covers all of a receiver there is no noise. Surfaces send on that share of what a ray
+/// brings
+/// (`lit_samples`).
 #pragma once
 
 #include <array>
@@ -131,19 +132,13 @@ class SunSampler {
   std::vector<std::array<std::uint32_t, 4>> net_;
 };
 
-/// Share of the light of each active ray that reaches its receiver, one of the sampler's: 0 or 1
-/// for patches, and for sensors what passes on the way.
-RayCaster::Shares shares_of_light(const SunSampler& sampler, const RayCaster& caster,
-                                  const Packet& origins, const PacketDirections& to_sun,
-                                  std::uint32_t active);
-
 /// Samples of one packet of a receiver, and which of them see the sun.
 struct LitSamples {
   Packet origins;
   PacketDirections to_sun;  ///< each to its own point on the disk
   std::uint32_t active,
       lit;                  ///< bits: that the packet really holds, and of these what sees the sun
-  RayCaster::Shares share;  ///< of the sun that each sees
+  RayCaster::Shares share;  ///< of the sun's light that reaches each
 };
 /// The only place that asks rays for the direct sun of a receiver, so that what surfaces receive
 /// and what they send on can rest on the same rays. `seeds`: of this receiver and sun.
@@ -151,7 +146,7 @@ LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const
                        const SunSampler::Geometry& geometry, const SunSampler::Seeds& seeds,
                        std::size_t packet);
 /// Which of these see the sun.
-LitSamples lit_samples(const SunSampler& sampler, const RayCaster& caster, const Packet& origins,
+LitSamples lit_samples(const RayCaster& caster, const Packet& origins,
                        const PacketDirections& to_sun, std::uint32_t active);
 
 /// Unit direction to the point on the sun's disk that lies along `to_sun`, of any length, as a

@@ -40,9 +40,9 @@ class GlossySun::Chunk {
         const IntervalLight& sun, std::size_t first, std::size_t receivers)
       : g_(glossy),
         images_(images),
-        are_sensors_(are_sensors),
         sun_(sun),
         points_(sun),
+        are_sensors_(are_sensors),
         first_(first),
         realizations_(static_cast<std::size_t>(glossy.rules_.realizations)),
         sum_(receivers * realizations_, 0) {}
@@ -73,12 +73,10 @@ class GlossySun::Chunk {
   void cast() {
     if (waiting_ == 0) return;
     const auto active = static_cast<std::uint32_t>((std::uint64_t{1} << waiting_) - 1);
-    auto seen = g_.caster_.unoccluded_each(origins_, to_sun_, active);
-    for (; seen != 0; seen &= seen - 1) {
-      const auto l = static_cast<std::size_t>(std::countr_zero(seen));
-      sum_[slot_[l]] += brings_[l];
-    }
-    rays += waiting_;
+    const auto shares = g_.caster_.passed_each(origins_, to_sun_, active);
+    for (std::size_t l = 0; l < waiting_; ++l)
+      sum_[slot_[l]] += brings_[l] * static_cast<double>(shares[l]);
+    rays_ += waiting_;
     waiting_ = 0;
   }
 
@@ -86,7 +84,7 @@ class GlossySun::Chunk {
   double sum(std::size_t receiver, std::size_t realization) const {
     return sum_[(receiver - first_) * realizations_ + realization];
   }
-  std::uint64_t rays = 0;
+  std::uint64_t rays() const { return rays_; }
 
  private:
   /// Glimpses of a receiver in one realization take the points of the disk in their order.
@@ -113,17 +111,18 @@ class GlossySun::Chunk {
   PacketDirections to_sun_{};
   const GlossySun& g_;
   const LobeImages& images_;
-  bool are_sensors_;
   const IntervalLight& sun_;
   SunPoints points_;
   RandomWords seeds_{};  ///< of the points for the glimpses of one slot
   std::size_t slot_of_points_ = 0;
   std::uint32_t taken_ = 0;
+  bool are_sensors_;
   std::size_t first_, realizations_;
   std::vector<double> sum_;
   std::size_t slot_[packet_size];
   double brings_[packet_size];
   std::size_t waiting_ = 0;
+  std::uint64_t rays_ = 0;
 };
 
 std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages& images, bool are_sensors,
@@ -147,7 +146,7 @@ std::uint64_t GlossySun::add_light(const Lines& lines, const LobeImages& images,
           Chunk chunk(*this, images, are_sensors, sun, begin, end - begin);
           for (auto glimpse = first; glimpse != last; ++glimpse) chunk.ask(*glimpse);
           chunk.cast();
-          rays += chunk.rays;
+          rays += chunk.rays();
           for (std::size_t i = begin; i < end; ++i) {
             const int lines_of = are_sensors ? rules_.lines_per_patch : rules_.lines_of(i);
             const double lines_each = lines_of / R;
@@ -199,7 +198,8 @@ void GlossySun::send_on(const LineFollower& follower, const IntervalLight& sun, 
       Fate<double> fate;
       if (sent >> l & 1u) fate = follower.sent_on(on[l].direction, on[l].weight, hits[l], key).fate;
       fate.absorbed += on[l].absorbed - mirror;
-      fates[key.realization][k] += scaled(fate, power_per_sample);
+      fates[key.realization][k] +=
+          scaled(fate, power_per_sample * static_cast<double>(samples.share[l]));
     }
   }
 }

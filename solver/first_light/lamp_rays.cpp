@@ -32,10 +32,7 @@ void LampRays::look(std::size_t receiver, std::size_t packet, const Look& sample
   found_.rays += static_cast<std::uint64_t>(std::popcount(samples.active));
   const auto each =
       static_cast<double>(sampler_.samples()) / static_cast<double>(irradiance_.size());
-  const auto shares =
-      sampler_.are_points()
-          ? caster_.passed_up_to(samples.origins, ways, samples.active)
-          : all_or_nothing(caster_.unoccluded_up_to(samples.origins, ways, samples.active));
+  const auto shares = caster_.passed_up_to(samples.origins, ways, samples.active);
   for (auto active = samples.active; active != 0; active &= active - 1) {
     const auto l = static_cast<std::size_t>(std::countr_zero(active));
     if (shares[l] <= 0) continue;

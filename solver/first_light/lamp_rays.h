@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The sunload authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Samples of receivers that look at a lamp: what each brings where nothing is on its way.
+/// Samples of receivers that look at a lamp: what each brings of it, as what is on its way lets
+/// pass.
 #pragma once
 
 #include <cstdint>

@@ -176,7 +176,12 @@ class LobeImages::Receiver {
     }
     if (on_it == 0) return 0;
     rays += static_cast<std::uint64_t>(std::popcount(on_it));
-    return i_.caster_.unoccluded_each(points, to_sun_, on_it);
+    const auto shares = i_.caster_.passed_each(points, to_sun_, on_it);
+    for (auto bits = on_it; bits != 0; bits &= bits - 1) {
+      const auto l = static_cast<std::size_t>(std::countr_zero(bits));
+      brings_[l] *= static_cast<double>(shares[l]);
+    }
+    return any_passed(shares);
   }
 
   /// `w`: the way to the surface; `s`: from there to the point of the sun.

@@ -82,7 +82,7 @@ class MirrorChains::Task {
       LitSamples samples = lit_samples(c_.sampler_, c_.caster_, sun, geometry, seeds_, p);
       for (std::size_t l = 0; l < packet_size; ++l)
         if ((samples.lit >> l & 1u) != 0)
-          begin(k, beams, mirror, mirror.power / samples_each,
+          begin(k, beams, mirror, arriving(mirror.power / samples_each, samples, l),
                 c_.sampler_.realization(p * packet_size + l), at(samples.to_sun, l), chains_[l]);
       follow(k, beams, samples);
     }
@@ -110,11 +110,12 @@ class MirrorChains::Task {
         put(origins, l, c_.point(*of_lane[l], words));
         put(to_sun, l, disk.at(words[2] * 0x1p-32, words[3] * 0x1p-32));
       }
-      LitSamples samples = lit_samples(c_.sampler_, c_.caster_, origins, to_sun,
+      LitSamples samples = lit_samples(c_.caster_, origins, to_sun,
                                        static_cast<std::uint32_t>((std::uint64_t{1} << lanes) - 1));
       for (std::size_t l = 0; l < lanes; ++l)
         if ((samples.lit >> l & 1u) != 0)
-          begin(k, beams, *of_lane[l], step, realization, at(to_sun, l), chains_[l]);
+          begin(k, beams, *of_lane[l], arriving(step, samples, l), realization, at(to_sun, l),
+                chains_[l]);
       follow(k, beams, samples);
     }
   }
@@ -127,6 +128,10 @@ class MirrorChains::Task {
  private:
   static std::uint64_t count(std::uint32_t bits) {
     return static_cast<std::uint64_t>(std::popcount(bits));
+  }
+  /// Of a sample's power.
+  static double arriving(double power, const LitSamples& samples, std::size_t sample) {
+    return power * static_cast<double>(samples.share[sample]);
   }
 
   /// Light on the mirror where it was reflected last.

@@ -277,7 +277,7 @@ class MirrorSun::PatchWork {
     }
     if (active == 0) return;
     rays += static_cast<std::uint64_t>(std::popcount(active));
-    const auto shares = shares_of_light(sampler_, m_.caster_, points, sun, active);
+    const auto shares = m_.caster_.passed_each(points, sun, active);
     for (; active != 0; active &= active - 1) {
       const auto l = static_cast<std::size_t>(std::countr_zero(active));
       of_realization_[sampler_.realization(packet * packet_size + l)] +=

@@ -36,10 +36,6 @@ Moments moments(const std::array<std::vector<double>, halves_of_light>& at_point
   return {(mean[0] + mean[1]) / 2, variance / static_cast<double>(n - 1)};
 }
 
-bool passes_any(const RayCaster::Shares& shares) {
-  return std::any_of(shares.begin(), shares.end(), [](float share) { return share > 0; });
-}
-
 }  // namespace
 
 MeshPilot::MeshPilot(const ElementForest& forest, const Scene& scene, const RayCaster& caster,
@@ -129,7 +125,7 @@ void MeshPilot::look_for_suns(const PilotPoints& points, ElementLoad& load) cons
             [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& [cos_theta, direction] : suns)
     for (const Packet& packet : points.packets)
-      if (passes_any(caster_.passed_each(packet, same_for_all(direction), all_rays))) {
+      if (any_passed(caster_.passed_each(packet, same_for_all(direction), all_rays)) != 0) {
         load.sees_sun = true;
         load.largest_cosine = cos_theta;
         return;

@@ -170,7 +170,8 @@ class FirstMirrored::SunTask {
                           .block = shot_blocks::of_mirrored_sun.first};
       const Followed sent =
           m_.chain_.mirror_on(at(samples.origins, l), sun_before(n, sun, at(samples.to_sun, l)),
-                              patch, static_cast<std::uint32_t>(k), power, key, deposits[r]);
+                              patch, static_cast<std::uint32_t>(k),
+                              power * static_cast<double>(samples.share[l]), key, deposits[r]);
       fates[r][k] += sent.fate;
       rays += sent.rays;
     }

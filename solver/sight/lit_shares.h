@@ -7,11 +7,11 @@
 /// at in groups, and with all suns of a block side by side: most of them are found to be wholly lit
 /// or dark by a few edges.
 ///
-/// Rays must tell of patches behind screens, through which light passes by chance; of a sun with a
-/// disk of which a part is hidden; of patches that are shaded by so many faces that rays cost less;
-/// and, if these are to, of surfaces that send light on (mirrors, panes, gloss) where a shadow's
-/// edge crosses them, so that what they receive and what they send on rest on the same rays. Which
-/// patches these are does not depend on any random number.
+/// Rays must tell of patches behind screens, through which a share of the light passes; of a sun
+/// with a disk of which a part is hidden; of patches that are shaded by so many faces that rays
+/// cost less; and, if these are to, of surfaces that send light on (mirrors, panes, gloss) where a
+/// shadow's edge crosses them, so that what they receive and what they send on rest on the same
+/// rays. Which patches these are does not depend on any random number.
 #pragma once
 
 #include <cstdint>

@@ -6,8 +6,8 @@
 /// (solver/sight/lit_mirrors.h) are windows through which its light falls on what lies before them;
 /// faces between cover some of it. Heckbert & Hanrahan (1984), Beam tracing polygonal objects.
 ///
-/// Rays must tell of what is before or behind screens, through which light passes by chance; and
-/// where mirrors or shades make too many parts. Which patches these are does not depend on any
+/// Rays must tell of what is before or behind screens, through which a share of the light passes;
+/// and where mirrors or shades make too many parts. Which patches these are does not depend on any
 /// random number.
 #pragma once
 

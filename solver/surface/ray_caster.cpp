@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "geo/base/check.h"
@@ -28,6 +30,10 @@ constexpr double float_ulp = 1.0 / (1 << 24);
 
 // Ends of rays, in lengths of their directions.
 constexpr float no_end = std::numeric_limits<float>::infinity(), whole_way = 1;
+
+// Of the light along a ray. In a wood rays to low suns cross some hundred surfaces: of what five of
+// leaves let pass, chance decides whether it goes on, as it does along any other ray.
+constexpr float nothing = 0, faintest = 1.0f / 2048;
 
 std::string embree_config(const std::string& isa, int threads) {
   return "threads=" + std::to_string(threads) + ",set_affinity=0,isa=" + isa;
@@ -128,31 +134,44 @@ class Passage {
     unsigned ray, triangle;
     float distance, u, v;
     bool front, at_edge;  ///< of the triangle
-    float transmittance = 1;
+    float transmittance;
   };
 
-  Passage() { share_.fill(1); }
+  /// Of what is left of a ray, no more than `faint`, chance decides.
+  explicit Passage(float faint) : faint_(faint) {
+    share_.fill(1);
+    last_.fill(none);
+  }
   const RayCaster::Shares& share() const { return share_; }
   const std::vector<Crossing>& crossed() const { return crossed_; }
-  void cross(const Crossing& at) {
-    const auto is_known = [&](const Crossing& known) { return is_same(known, at); };
-    if (std::any_of(crossed_.begin(), crossed_.end(), is_known)) return;
+  /// False where chance is to decide whether that surface is crossed.
+  bool cross(const Crossing& at) {
+    for (auto known = last_[at.ray]; known != none; known = before_[known])
+      if (is_same(crossed_[known], at)) return true;
+    if (share_[at.ray] <= faint_) return false;
+    before_.push_back(last_[at.ray]);
+    last_[at.ray] = static_cast<std::uint32_t>(crossed_.size());
     crossed_.push_back(at);
     share_[at.ray] *= at.transmittance;
+    return true;
   }
 
  private:
-  /// Trees of boxes hold a triangle several times, and where two triangles of a surface meet, both
-  /// are hit.
+  static constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+
+  /// Of one ray. Trees of boxes hold a triangle several times, and where two triangles of a surface
+  /// meet, both are hit.
   static bool is_same(const Crossing& a, const Crossing& b) {
     constexpr float roundings = 1e-6f;  // of a distance
-    if (a.ray != b.ray) return false;
     if (a.triangle == b.triangle) return true;
     return a.at_edge && b.at_edge && a.front == b.front &&
            std::abs(a.distance - b.distance) <= roundings * a.distance;
   }
 
-  std::vector<Crossing> crossed_;
+  float faint_;
+  std::vector<Crossing> crossed_;      ///< of all rays
+  std::vector<std::uint32_t> before_;  ///< of each: the one of the same ray before it
+  std::array<std::uint32_t, packet_size> last_;
   RayCaster::Shares share_;
 };
 
@@ -168,7 +187,8 @@ struct Context {
   }
 };
 
-Passage::Crossing crossing_of(const RTCFilterFunctionNArguments* hits, unsigned r) {
+Passage::Crossing crossing_of(const RTCFilterFunctionNArguments* hits, unsigned r,
+                              float transmittance) {
   constexpr float edge = 1e-5f;  // of barycentric weights: some hundred roundings
   const float u = RTCHitN_u(hits->hit, hits->N, r), v = RTCHitN_v(hits->hit, hits->N, r);
   const float facing = RTCHitN_Ng_x(hits->hit, hits->N, r) * RTCRayN_dir_x(hits->ray, hits->N, r) +
@@ -180,34 +200,22 @@ Passage::Crossing crossing_of(const RTCFilterFunctionNArguments* hits, unsigned 
           .u = u,
           .v = v,
           .front = facing < 0,
-          .at_edge = std::min({u, v, 1 - u - v}) < edge};
-}
-
-/// Notes crossings of what lets light pass, which then is as if it were not there.
-void note_crossings(const RTCFilterFunctionNArguments* hits, const Screens& screens,
-                    Passage& passage) {
-  for (unsigned r = 0; r < hits->N; ++r) {
-    if (hits->valid[r] == 0) continue;
-    const float T = screens.transmittance[RTCHitN_primID(hits->hit, hits->N, r)];
-    if (T <= 0) continue;
-    hits->valid[r] = 0;
-    if (T >= 1) continue;
-    Passage::Crossing crossing = crossing_of(hits, r);
-    crossing.transmittance = T;
-    passage.cross(crossing);
-  }
+          .at_edge = std::min({u, v, 1 - u - v}) < edge,
+          .transmittance = transmittance};
 }
 
 /// Embree asks it for every hit; the hits that it refuses are as if the triangle were not there.
+/// What lets light pass is crossed by rays whose passage is noted, and else passed by chance.
 void let_pass(const RTCFilterFunctionNArguments* hits) {
   const auto& screens = *static_cast<const Screens*>(hits->geometryUserPtr);
-  if (Passage* passage = reinterpret_cast<const Context*>(hits->context)->passage)
-    return note_crossings(hits, screens, *passage);
+  Passage* passage = reinterpret_cast<const Context*>(hits->context)->passage;
   for (unsigned r = 0; r < hits->N; ++r) {
     if (hits->valid[r] == 0) continue;
     const unsigned triangle = RTCHitN_primID(hits->hit, hits->N, r);
     const float T = screens.transmittance[triangle];
-    if (T > 0 && passing_number(hits->ray, hits->N, r, screens.key[triangle]) < T)
+    if (T <= 0) continue;
+    if (T >= 1 || (passage && passage->cross(crossing_of(hits, r, T))) ||
+        passing_number(hits->ray, hits->N, r, screens.key[triangle]) < T)
       hits->valid[r] = 0;
   }
 }
@@ -296,29 +304,28 @@ Hit RayCaster::first_hit(Vec3 origin, Vec3 direction) const {
   return first_hit_in(embree_->scene, context, origin, direction);
 }
 
-std::vector<RayCaster::Taker> RayCaster::takers(Vec3 origin, Vec3 direction) const {
-  Passage passage;
-  Context context(Coherence::none, &passage);
-  const Hit end = first_hit_in(embree_->scene, context, origin, direction);
-  auto crossed = passage.crossed();
+namespace {
+
+/// Of a ray that takes its end, and of light what is left of it there. `crossed`: all that was
+/// noted on its way, in any order.
+void add_takers(std::size_t ray, std::vector<Passage::Crossing> crossed, const Hit& end,
+                double length_m, std::vector<RayCaster::Taker>& takers) {
   std::ranges::sort(crossed, {}, &Passage::Crossing::distance);
-  std::vector<Taker> takers;
   double left = 1;
   for (const auto& at : crossed) {
-    const double distance_m = static_cast<double>(at.distance) * norm(direction);
+    const double distance_m = static_cast<double>(at.distance) * length_m;
     if (!end.left_scene() && distance_m > end.distance_m) break;
     takers.push_back({{static_cast<std::int32_t>(at.triangle), static_cast<double>(at.u),
                        static_cast<double>(at.v), distance_m, at.front},
-                      left * (1 - static_cast<double>(at.transmittance))});
+                      left * (1 - static_cast<double>(at.transmittance)),
+                      ray});
     left *= static_cast<double>(at.transmittance);
   }
-  if (!end.left_scene()) takers.push_back({end, left});
-  return takers;
+  if (!end.left_scene()) takers.push_back({end, left, ray});
 }
 
-PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& directions,
-                                 std::uint32_t active, Coherence coherence) const {
-  Context context(coherence);
+PacketHits first_hits_in(RTCScene scene, Context& context, const Packet& origins,
+                         const PacketDirections& directions, std::uint32_t active) {
   RTCRayHit16 query;
   alignas(64) int valid[packet_size];
   for (std::size_t r = 0; r < packet_size; ++r) {
@@ -333,9 +340,10 @@ PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& 
     query.ray.tfar[r] = no_end;
     query.ray.time[r] = 0;
     query.ray.mask[r] = ~0u;
+    query.ray.id[r] = static_cast<unsigned>(r);
     query.hit.geomID[r] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect16(valid, embree_->scene, &context.embree, &query);
+  rtcIntersect16(valid, scene, &context.embree, &query);
   PacketHits hits;
   for (std::size_t r = 0; r < packet_size; ++r) {
     const bool hit = valid[r] != 0 && query.hit.geomID[r] != RTC_INVALID_GEOMETRY_ID;
@@ -348,6 +356,44 @@ PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& 
                     0;
   }
   return hits;
+}
+
+}  // namespace
+
+std::vector<RayCaster::Taker> RayCaster::takers(Vec3 origin, Vec3 direction) const {
+  Passage passage(nothing);
+  Context context(Coherence::none, &passage);
+  const Hit end = first_hit_in(embree_->scene, context, origin, direction);
+  std::vector<Taker> takers;
+  add_takers(0, passage.crossed(), end, norm(direction), takers);
+  return takers;
+}
+
+std::vector<RayCaster::Taker> RayCaster::takers_each(const Packet& origins,
+                                                     const PacketDirections& directions,
+                                                     std::uint32_t active) const {
+  Passage passage(nothing);
+  Context context(Coherence::parallel, &passage);
+  const PacketHits ends = first_hits_in(embree_->scene, context, origins, directions, active);
+  std::vector<Taker> takers;
+  takers.reserve(packet_size);
+  for (; active != 0; active &= active - 1) {
+    const auto r = static_cast<std::size_t>(std::countr_zero(active));
+    const double length_m = norm(at(directions, r));
+    Hit end = ends[r];
+    end.distance_m *= length_m;
+    std::vector<Passage::Crossing> crossed;
+    std::ranges::copy_if(passage.crossed(), std::back_inserter(crossed),
+                         [&](const auto& crossing) { return crossing.ray == r; });
+    add_takers(r, std::move(crossed), end, length_m, takers);
+  }
+  return takers;
+}
+
+PacketHits RayCaster::first_hits(const Packet& origins, const PacketDirections& directions,
+                                 std::uint32_t active, Coherence coherence) const {
+  Context context(coherence);
+  return first_hits_in(embree_->scene, context, origins, directions, active);
 }
 
 std::uint32_t RayCaster::unoccluded(const Packet& origins, Vec3 direction,
@@ -415,7 +461,7 @@ std::uint32_t RayCaster::unoccluded(const Packet& origins, const PacketDirection
 
 RayCaster::Shares RayCaster::passed(const Packet& origins, const PacketDirections& directions,
                                     float end, std::uint32_t active, Coherence coherence) const {
-  Passage passage;
+  Passage passage(faintest);
   Context context(coherence, &passage);
   const std::uint32_t seen =
       unoccluded_rays(embree_->scene, context, origins, directions, end, active);

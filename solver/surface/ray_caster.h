@@ -10,8 +10,8 @@
 /// A surface of transmittance T stops a ray with probability 1 - T. What decides is a hash of
 /// the ray's own coordinates and the triangle's key: the same ray meets the same
 /// triangles in packets, alone, and on any thread; different rays and triangles decide
-/// independently, so that T^k of the rays pass k layers. Rays of one point to one point are all
-/// the same: for them `passed_each` gives T^k itself.
+/// independently, so that T^k of the rays pass k layers. Where only that is asked which reaches the
+/// origin of a ray, `passed_each` gives T^k itself, without chance.
 /// Reference: Wald et al. (2014), Embree: a kernel framework for efficient CPU
 /// ray tracing.
 #pragma once
@@ -132,7 +132,7 @@ class RayCaster {
 
   /// Share of light from along each direction that reaches its origin, for the `active` ones: the
   /// product of the transmittances of all that is on the way, 0 where something stops all of it.
-  /// What `unoccluded_each` is on the mean of many rays, without chance.
+  /// What `unoccluded_each` is on the mean of many rays; chance has a hand in less than 1/2000.
   Shares passed_each(const Packet& origins, const PacketDirections& directions,
                      std::uint32_t active) const;
   /// The same of what is between origin and origin + direction.
@@ -145,8 +145,12 @@ class RayCaster {
   struct Taker {
     Hit hit;
     double share;
+    std::size_t ray = 0;  ///< of a packet
   };
   std::vector<Taker> takers(Vec3 origin, Vec3 direction) const;
+  /// The same for the `active` rays of a packet, one ray after the other.
+  std::vector<Taker> takers_each(const Packet& origins, const PacketDirections& directions,
+                                 std::uint32_t active) const;
 
  private:
   Shares passed(const Packet& origins, const PacketDirections& directions, float end,
@@ -160,11 +164,12 @@ class RayCaster {
   double offset_m_ = 0;
 };
 
-/// 1 for these rays (bit r: ray r), 0 for the others.
-inline RayCaster::Shares all_or_nothing(std::uint32_t rays) {
-  RayCaster::Shares shares{};
-  for (std::size_t r = 0; r < packet_size; ++r) shares[r] = (rays >> r & 1u) ? 1.0f : 0.0f;
-  return shares;
+/// The rays of which some light arrives (bit r: ray r).
+inline std::uint32_t any_passed(const RayCaster::Shares& shares) {
+  std::uint32_t rays = 0;
+  for (std::size_t r = 0; r < packet_size; ++r)
+    if (shares[r] > 0) rays |= 1u << r;
+  return rays;
 }
 
 }  // namespace sunload

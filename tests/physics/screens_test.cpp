@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <iostream>
 
+#include "geo/base/units.h"
+#include "geo/edit/solids.h"
 #include "solver/base/threads.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
@@ -24,7 +27,7 @@ Material crown(double T, double diffuse = 0, double mirror = 0) {
 }
 
 /// A black receiver of 1 m² under k screens that are large beside their distance.
-Solved under(int layers, double T, Sides sides, const IntervalLight& light) {
+Scene under_layers(int layers, double T, Sides sides) {
   SceneBuilder builder;
   const int black = builder.material({"black"}), screen = builder.material(crown(T));
   builder.object("receiver").quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, black);
@@ -35,9 +38,13 @@ Solved under(int layers, double T, Sides sides, const IntervalLight& light) {
     builder.object("screen_" + std::to_string(k))
         .quad({-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}, screen);
   }
+  return builder.scene();
+}
+
+Solved under(int layers, double T, Sides sides, const IntervalLight& light) {
   auto rules = test_rules();
   rules.direct_samples = rules.lines_per_patch = 16 * 4096;
-  return solve(builder.scene(), {light}, rules, {.max_edge_m = 1e9});
+  return solve(under_layers(layers, T, sides), {light}, rules, {.max_edge_m = 1e9});
 }
 
 bool of_receiver(const Solved& solved, std::size_t i) { return solved.patches[i].triangle < 2; }
@@ -53,6 +60,155 @@ TEST(Screens, SunThroughLayersIsAPower) {
       EXPECT_TRUE(verdict) << layers << ": " << verdict.text;
       EXPECT_FALSE(expect_mean(means, 1.05 * E)) << layers;
     }
+}
+
+/// What every realization has of the sun, at the least samples that there can be.
+std::vector<double> of_receiver_alone(int layers, double T, const IntervalLight& sun) {
+  auto rules = test_rules();
+  rules.direct_samples = rules.realizations;
+  rules.lines_per_patch = rules.realizations;
+  const auto solved = solve(under_layers(layers, T, Sides::two), {sun}, rules, {.max_edge_m = 1e9});
+  return solved.means([&](std::size_t i) { return of_receiver(solved, i); });
+}
+
+// What passes is no chance: behind screens that cover all of a patch there is no error, by how few
+// rays it may be known, and of a sun that is a disk as of one that is a point.
+TEST(Screens, SunBehindScreensHasNoError) {
+  constexpr double T = 0.173;
+  for (const double disk : {0.0, 0.2666})
+    for (const int layers : {1, 2, 3}) {
+      IntervalLight sun = one_second(normalized({0.2, 0.3, 0.9}), 900);
+      sun.disk_half_angle = radians(disk);
+      const double open = 900 * sun.direction.z, E = open * std::pow(T, layers);
+      for (const double of_realization : of_receiver_alone(layers, T, sun)) {
+        EXPECT_NEAR(of_realization, E, float_rounding * E) << layers;
+        // One surface too many, or too few, would be seen.
+        EXPECT_GT(std::abs(of_realization - E / T), float_rounding * E);
+      }
+    }
+}
+
+// Of what five surfaces of leaves let pass chance decides: it is right on the mean.
+TEST(Screens, FaintLightIsAPowerOnTheMean) {
+  constexpr double T = 0.173;
+  const Vec3 sun = normalized({0.2, 0.3, 0.9});
+  for (const int layers : {6, 7}) {
+    const double E = 900 * sun.z * std::pow(T, layers);
+    const auto solved = under(layers, T, Sides::two, one_second(sun, 900));
+    const auto means = solved.means([&](std::size_t i) { return of_receiver(solved, i); });
+    const Verdict verdict = expect_mean(means, E);
+    EXPECT_TRUE(verdict) << layers << ": " << verdict.text;
+    EXPECT_FALSE(expect_mean(means, E / T)) << layers;
+    EXPECT_FALSE(expect_mean(means, E * T)) << layers;
+  }
+}
+
+/// Ground of small patches below a plane of transmittance T whose edges cross most of them askew.
+Scene shaded_by_an_edge(double T) {
+  SceneBuilder builder;
+  builder.object("ground").quad({-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0},
+                                builder.material({"black"}));
+  builder.sides(Sides::two)
+      .object("screen")
+      .quad({-0.3, -2.2, 1}, {1.1, -1.9, 1}, {0.6, 2.3, 1}, {-1.3, 1.8, 1},
+            builder.material(crown(T)));
+  return builder.scene();
+}
+
+// Behind the edge of a screen the share of the patch is by samples, and errors are what they say.
+// The truth is geometry's, of an opaque plane.
+TEST(Screens, ErrorsBehindEdgesAreHonest) {
+  constexpr double T = 0.3;
+  constexpr int seeds = 8;
+  const IntervalLight sun = one_second(normalized({0.1, -0.2, 0.9}), 1000);
+  const double open = 1000 * sun.direction.z;
+  auto rules = test_rules();
+  rules.direct_samples = rules.realizations * 4;
+  rules.lines_per_patch = rules.realizations;
+  const SplitRules split{.max_edge_m = 0.5};
+  const Solved opaque = solve(shaded_by_an_edge(0), {sun}, rules, split);
+  const auto is_ground = [&](std::size_t i) { return opaque.patches[i].triangle < 2; };
+  const boost::math::students_t student(rules.realizations - 1);
+  const double t_of_95_percent = quantile(complement(student, 0.05 / 2));
+  double patches = 0, within = 0, within_half = 0;
+  std::vector<double> means(static_cast<std::size_t>(rules.realizations), 0);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    rules.seed = static_cast<std::uint64_t>(seed);
+    const Solved solved = solve(shaded_by_an_edge(T), {sun}, rules, split);
+    ASSERT_EQ(solved.patches.size(), opaque.patches.size());
+    for (std::size_t i = 0; i < solved.patches.size(); ++i) {
+      if (!is_ground(i)) continue;
+      const double lit = mean_error(opaque.of_patch(i)).mean / open;
+      const double truth = open * (lit + (1 - lit) * T);
+      const auto found = mean_error(solved.of_patch(i));
+      if (lit <= 0 || lit >= 1 - float_rounding) {
+        EXPECT_NEAR(found.mean, truth, float_rounding * open);
+        EXPECT_NEAR(found.standard_error, 0, float_rounding * open);
+        continue;
+      }
+      // Of corners that few points meet, errors are not normal.
+      if (std::min(lit, 1 - lit) < 0.2) continue;
+      const double t = std::abs(found.mean - truth) / found.standard_error;
+      patches += 1;
+      within += t <= t_of_95_percent ? 1 : 0;
+      within_half += t <= t_of_95_percent / 2 ? 1 : 0;
+    }
+    const auto of_seed = solved.means(is_ground);
+    for (std::size_t r = 0; r < means.size(); ++r) means[r] += of_seed[r] / seeds;
+  }
+  ASSERT_GE(patches, 100);
+  const CountInterval accepted = accepted_counts(patches, 0.95);
+  EXPECT_TRUE(accepted.contains(within)) << within << " of " << patches;
+  // Planted fault: errors half as large as they are.
+  EXPECT_FALSE(accepted.contains(within_half)) << within_half << " of " << patches;
+  const double lit = mean_error(opaque.means(is_ground)).mean / open;
+  const double truth = open * (lit + (1 - lit) * T);
+  const Verdict verdict = expect_mean(means, truth);
+  EXPECT_TRUE(verdict) << verdict.text;
+  EXPECT_FALSE(expect_mean(means, 1.02 * truth));
+}
+
+/// Paving about a tree of `scene.edit`.
+Scene tree_on_paving() {
+  PolygonModel tree;
+  add_tree(tree, {0, 0, 0}, {8, 5, 2.5, "leaves", "bark"},
+           {"tree", "SolitaryVegetationObject", {}});
+  SceneBuilder builder;
+  const int paving = builder.material({"paving", 0.2}), leaves = builder.material(crown(0.173));
+  builder.object("paving").quad({-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}, paving);
+  builder.sides(Sides::two).object("crown");
+  for (std::size_t face = 0; face < tree.facts.size(); ++face) {
+    if (tree.facts[face].sides != Sides::two) continue;  // the trunk
+    const auto ring = static_cast<std::size_t>(tree.polygon_ring[face]);
+    const auto corner = [&](std::int64_t c) {
+      const auto vertex = tree.ring_vertex[static_cast<std::size_t>(c)];
+      return tree.vertices[static_cast<std::size_t>(vertex)];
+    };
+    const auto first = tree.ring_begin[ring];
+    for (auto c = first + 2; c < tree.ring_begin[ring + 1]; ++c)
+      builder.triangle(corner(first), corner(c - 1), corner(c), leaves);
+  }
+  return builder.scene();
+}
+
+// Sixteen rays of a patch to the sun bring what 4096 do.
+TEST(Screens, FewRaysThroughATreeAreRightOnTheMean) {
+  const Scene scene = tree_on_paving();
+  const IntervalLight sun = one_second(normalized({0.4, 0.2, 0.8}), 900);
+  auto rules = test_rules();
+  rules.lines_per_patch = rules.realizations;
+  const auto paving = [&](int samples_each) {
+    rules.direct_samples = rules.realizations * samples_each;
+    rules.seed = static_cast<std::uint64_t>(samples_each);
+    const Solved solved = solve(scene, {sun}, rules, {.max_edge_m = 1});
+    return solved.means([&](std::size_t i) { return of_receiver(solved, i); });
+  };
+  const double truth = mean_error(paving(256)).mean;
+  const auto few = paving(1);
+  const Verdict verdict = expect_mean(few, truth);
+  EXPECT_TRUE(verdict) << verdict.text;
+  EXPECT_FALSE(expect_mean(few, 1.01 * truth));
+  EXPECT_LT(mean_error(few).standard_error, 1e-3 * truth);
 }
 
 TEST(Screens, SkyThroughLayersIsAPower) {
@@ -200,6 +356,18 @@ TEST(Screens, CrownsOnCrownsAreCrossedOneByOne) {
   const auto means = solved.means([&](std::size_t i) { return of_receiver(solved, i); });
   EXPECT_TRUE(expect_mean(means, 800 * std::pow(T, 3))) << mean_error(means).mean;
   EXPECT_FALSE(expect_mean(means, 800 * std::pow(T, 2)));
+}
+
+// Mirrors behind crowns send on the share of each ray that they receive: what is shot balances
+// sample by sample.
+TEST(Screens, LedgerOfAShadedCourtClosesToRoundingWhenShooting) {
+  auto rules = test_rules();
+  rules.transport = Transport::shoot;
+  rules.bounces = 20;
+  const auto solved = solve(shaded_court(), three_suns(), rules, {.max_edge_m = 1.5});
+  const auto residual = solved.ledger([](const Ledger& l) { return l.residual(); });
+  const auto in = solved.ledger([](const Ledger& l) { return l.in(); });
+  for (std::size_t r = 0; r < residual.size(); ++r) EXPECT_NEAR(residual[r], 0, 1e-6 * in[r]);
 }
 
 TEST(Screens, LedgerOfAShadedCourtCloses) {

@@ -156,6 +156,45 @@ TEST(Attribution, OfSensorsCrownsTakeTheirShareOfTheSun) {
   }
 }
 
+// The same of patches, at a ray of each realization; and what is left is what they have.
+TEST(Attribution, OfPatchesCrownsTakeTheirShareOfTheSun) {
+  SceneBuilder builder;
+  Material leaves{"leaves"};
+  leaves.transmittance = 0.3;
+  const int crown = builder.material(leaves);
+  builder.object("ground").quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0},
+                                builder.material({"black"}));
+  builder.sides(Sides::two)
+      .object("near")
+      .quad({-9, -9, 5}, {9, -9, 5}, {9, 9, 5}, {-9, 9, 5}, crown);
+  builder.object("far").quad({-9, -9, 8}, {9, -9, 8}, {9, 9, 8}, {-9, 9, 8}, crown);
+  builder.object("lid").quad({-9, -9, 9}, {0, -9, 9}, {0, 9, 9}, {-9, 9, 9},
+                             builder.material({"lid"}));
+  const Scene scene = builder.scene();
+  const std::vector<IntervalLight> lights = {one_second({0, 0, 1}, 800)};
+  SolverRules rules = test_rules();
+  rules.direct_samples = rules.lines_per_patch = rules.realizations;
+  const Solved solved = solve(scene, lights, rules, {});
+  Place place;
+  for (std::size_t i = 0; i < solved.patches.size(); ++i)
+    if (solved.patches[i].triangle < 2) place.receivers.push_back(i);
+  place.weight.assign(place.receivers.size(), 1 / static_cast<double>(place.receivers.size()));
+  const Attribution taken =
+      attribution(scene, lights, rules, SentLight(solved.patches.size(), 0), place);
+  const auto has = solved.means([&](std::size_t i) { return solved.patches[i].triangle < 2; });
+  double taken_by_lid = 0;
+  for (std::size_t r = 0; r < taken.realizations(); ++r) {
+    const auto takes = [&](const char* object) {
+      return taken.flow(object_named(scene, object), Flow::takes_sun, r);
+    };
+    EXPECT_NEAR(takes("near"), 800 * 0.7, 1e-3);
+    EXPECT_NEAR(takes("far"), 800 * 0.3 * 0.7, 1e-3);
+    EXPECT_NEAR(taken.total(r), has[r], 1e-3);
+    taken_by_lid += takes("lid");
+  }
+  EXPECT_GT(taken_by_lid, 1e-3);
+}
+
 // Between the sun and the mirror that the sensor sees it in.
 TEST(Attribution, OfSensorsCrownsTakeTheirShareOfTheMirroredSun) {
   const double rho_s = 0.5, dni = 800;
