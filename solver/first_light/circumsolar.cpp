@@ -68,10 +68,10 @@ class PatchSkies {
       rays_ += static_cast<std::uint64_t>(std::popcount(active));
       const auto shares =
           caster_.passed_each(sampler_.origins(geometry, seeds_, p), samples_.directions, active);
-      auto seen = any_passed(shares);
-      any = any || seen != 0;
-      for (; seen != 0; seen &= seen - 1) {
-        const auto l = static_cast<std::size_t>(std::countr_zero(seen));
+      for (auto bits = active; bits != 0; bits &= bits - 1) {
+        const auto l = static_cast<std::size_t>(std::countr_zero(bits));
+        if (shares[l] <= 0) continue;
+        any = true;
         add_weighed(shares[l] * samples_.weight[l], mixture_.of_skies(samples_.cell[l]).data(),
                     sums_[sampler_.realization(p * packet_size + l)].data());
       }

@@ -15,6 +15,7 @@
 
 #include "geo/base/check.h"
 #include "geo/base/keys.h"
+#include "geo/base/vector_code.h"
 #include "solver/base/rng.h"
 #include "solver/base/threads.h"
 
@@ -459,15 +460,29 @@ std::uint32_t RayCaster::unoccluded(const Packet& origins, const PacketDirection
   return unoccluded_rays(embree_->scene, context, origins, directions, end, active);
 }
 
+namespace {
+
+/// Nothing of the other rays.
+SUNLOAD_VECTOR_CODE void keep(std::uint32_t rays, float* shares) {
+  for (std::uint32_t r = 0; r < packet_size; ++r)
+    shares[r] = (rays >> r & 1u) != 0 ? shares[r] : 0.0f;
+}
+
+}  // namespace
+
 RayCaster::Shares RayCaster::passed(const Packet& origins, const PacketDirections& directions,
                                     float end, std::uint32_t active, Coherence coherence) const {
+  Shares shares;
+  if (embree_->screens.transmittance.empty()) {
+    shares.fill(1);
+    keep(unoccluded(origins, directions, end, active, coherence), shares.data());
+    return shares;
+  }
   Passage passage(faintest);
   Context context(coherence, &passage);
-  const std::uint32_t seen =
-      unoccluded_rays(embree_->scene, context, origins, directions, end, active);
-  Shares shares = passage.share();
-  for (std::size_t r = 0; r < packet_size; ++r)
-    if ((seen >> r & 1u) == 0) shares[r] = 0;
+  const auto seen = unoccluded_rays(embree_->scene, context, origins, directions, end, active);
+  shares = passage.share();
+  keep(seen, shares.data());
   return shares;
 }
 
