@@ -85,6 +85,15 @@ int raster_size(std::size_t beams) {
   return size;
 }
 
+/// Of each column, from that value on.
+SUNLOAD_VECTOR_CODE void take_least(const float* __restrict values, std::size_t rows,
+                                    float* __restrict least) {
+  for (std::size_t i = 0; i < rows; ++i, values += block_width)
+#pragma GCC unroll 1  // else the compiler makes it scalar
+    for (std::size_t k = 0; k < block_width; ++k)
+      least[k] = values[k] < least[k] ? values[k] : least[k];
+}
+
 /// What is known of light that is reflected once, of receivers and suns, [N][block], or of none.
 class OnceReflected {
  public:
@@ -105,9 +114,10 @@ class OnceReflected {
   std::uint32_t suns_by_rays() const {
     static_assert(block_width <= 32);
     if (!of_any()) return ~std::uint32_t{0};
+    std::array<float, block_width> least{};
+    take_least(light_.data(), light_.size() / block_width, least.data());
     std::uint32_t bits = 0;
-    for (std::size_t at = 0; at < light_.size(); ++at)
-      bits |= std::uint32_t{light_[at] < 0} << at % block_width;
+    for (std::size_t k = 0; k < block_width; ++k) bits |= std::uint32_t{least[k] < 0} << k;
     return bits;
   }
   /// Adds it to what receivers have.

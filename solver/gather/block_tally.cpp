@@ -35,7 +35,7 @@ SUNLOAD_VECTOR_CODE int unsound(const float* __restrict values, std::size_t rows
   int found = 0;
   for (std::size_t i = 0; i < rows; ++i, values += block_width)
 #pragma GCC unroll 1
-    for (std::size_t k = 0; k < count; ++k) found += (values[k] >= 0) & (values[k] <= most) ? 0 : 1;
+    for (std::size_t k = 0; k < count; ++k) found += values[k] >= 0 && values[k] <= most ? 0 : 1;
   return found;
 }
 
