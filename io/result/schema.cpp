@@ -226,7 +226,7 @@ constexpr std::array table{
     ResultVariable{"power_transmitted_se", "", float64, "kWh", ledger, "standard error of the time sum of power_transmitted"},
     ResultVariable{"power_escaped_se", "", float64, "kWh", ledger, "standard error of the time sum of power_escaped"},
     ResultVariable{"power_unshot_se", "", float64, "kWh", ledger, "standard error of the time sum of power_unshot at the number of bounces that were followed, which other lines may make one more or less"},
-    ResultVariable{"power_residual_se", "", float64, "kWh", ledger, "standard error of the time sum of power_residual; far too small now and then with fewer than 4 lines per patch and realization"},
+    ResultVariable{"power_residual_se", "", float64, "kWh", ledger, "standard error of the time sum of power_residual, without what exchange with whole elements makes (mesh.link_threshold; up to 1e-4 of what comes in); far too small now and then with fewer than 4 lines per patch and realization"},
     ResultVariable{"power_estimated_se", "", float64, "kWh", ledger, "standard error of the time sum of power_estimated, without that of the share that lines tell (nearly twice as large), and at the number of bounces that were followed"},
 
     ResultVariable{"study_yaml", "", text, "", study, "the study, verbatim"},
