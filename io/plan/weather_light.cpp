@@ -11,6 +11,8 @@
 
 #include "geo/base/units.h"
 #include "geo/sun/resample.h"
+#include "geo/sun/weather_clock.h"
+#include "io/plan/clock_words.h"
 #include "io/plan/weather_gaps.h"
 
 namespace sunload {
@@ -39,6 +41,10 @@ std::vector<DatedWeather> used_by(const SunPath& path, const std::vector<DatedWe
 Site open(Site site) {
   site.horizon = Horizon();
   return site;
+}
+
+Site site_at(const WeatherPlace& place) {
+  return {.latitude_deg = place.latitude_deg, .longitude_deg = place.longitude_deg};
 }
 
 /// As much of the beam as the interval's sunlit part has.
@@ -174,6 +180,7 @@ std::vector<WeatherMean> StudyWeather::means(const SunPath& path) {
       own && study_.site.horizon.is_open()
           ? path
           : sun_path(steps_of(used), site_, study_.sun.refraction, study_.sun.ut1_utc);
+  say_clock(path);
   say_closure(as_read, weather_path);
   say_doubts(as_read, weather_path);
   WeatherLight light =
@@ -306,8 +313,7 @@ void StudyWeather::say_file() {
           : ""));
   for (const auto& note : file_.notes) words_.push_back(note);
   if (!file_.place) return;
-  const double away = distance_m(site_, {.latitude_deg = file_.place->latitude_deg,
-                                         .longitude_deg = file_.place->longitude_deg});
+  const double away = distance_m(site_, site_at(*file_.place));
   if (away > far_from_station_m)
     warnings_.push_back(fmt::format(
         "the weather station {} stands {:.0f} km from the site; its weather and its hours of "
@@ -397,6 +403,27 @@ void StudyWeather::say_closure(const std::vector<DatedWeather>& used, const SunP
         c.best_rms, c.rms));
   if (auto lacking = lacking_light_warning(c, file_.path); !lacking.empty())
     warnings_.push_back(std::move(lacking));
+}
+
+void StudyWeather::say_clock(const SunPath& path) {
+  constexpr double year_s = 365 * seconds_per_day, margin_s = 2 * seconds_per_day;
+  const UnixTime begin = path.front().begin, end = path.back().end;
+  const double before_s = std::max(0.0, year_s - (end - begin)) / 2;  // typical years come again
+  std::vector<DatedWeather> about;
+  std::copy_if(dated_.begin(), dated_.end(), std::back_inserter(about), [&](const auto& w) {
+    return w.begin >= begin - before_s - same_time_s && w.end <= end + before_s + same_time_s;
+  });
+  if (about.empty()) return;
+  Site place = site_;  // far weather has the sun of its station; that it is far is told
+  if (file_.place && distance_m(site_, site_at(*file_.place)) > far_from_station_m) {
+    place.latitude_deg = file_.place->latitude_deg;
+    place.longitude_deg = file_.place->longitude_deg;
+  }
+  const SunEphemeris sun(about.front().begin - margin_s, about.back().end + margin_s, place,
+                         study_.sun.refraction, study_.sun.ut1_utc,
+                         standard_air(place.elevation_m));
+  say(clock_words(clock_of(about, sun, place.latitude_deg, place.longitude_deg), file_,
+                  offset_s(first_year()), study_.light.stamp));
 }
 
 void StudyWeather::say_doubts(const std::vector<DatedWeather>& used, const SunPath& path) {

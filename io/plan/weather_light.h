@@ -61,6 +61,8 @@ class StudyWeather {
   std::vector<DatedWeather> without_gaps(std::vector<DatedWeather> used, const SunPath& path);
   void say_file();
   void say_closure(const std::vector<DatedWeather>& used, const SunPath& path);
+  /// Of a year about the path where that is shorter: a few days tell little.
+  void say_clock(const SunPath& path);
   void say_doubts(const std::vector<DatedWeather>& used, const SunPath& path);
   void say(const WeatherSayings& said);
   void say_filled(const FilledWeather& gaps);
