@@ -76,7 +76,7 @@ TEST(WeatherLight, YearOfAnEpwIsItsRecordsAndFast) {
   const auto series = light_series(study, built.site);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   std::cout << series.intervals.size() << " intervals: " << taken.count() * 1000 << " ms\n";
-  EXPECT_LT(taken.count(), 1);  // some 60 ms; ten times and more for a busy machine
+  EXPECT_LT(taken.count(), 5);  // some 125 ms; a busy machine may take ten times as long
   ASSERT_EQ(series.intervals.size(), 8760u);
   const auto file = read_weather_file(study.light.weather, {});
   double dropped = 0, ghi = 0;
