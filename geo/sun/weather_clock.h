@@ -7,10 +7,9 @@
 /// theirs; days whose shape fits are clear. A wrong clock moves the flanks of morning and evening
 /// alike, hills and fog one of them: both must tell of the shift, on three of four days.
 ///
-/// After Perry, Meyers & Muller (2023), Survey of time shift detection algorithms for measured PV
-/// data (PV Reliability Workshop): a day's light is symmetric about the sun's noon; and Reno &
-/// Hansen (2016), Identification of periods of clear sky irradiance in time series of GHI
-/// measurements, Renewable Energy 90, p. 520: clear is what has the shape of a clear sky.
+/// A day's light is symmetric about the sun's noon; that a day is clear is told by the shape of its
+/// light, as by Reno & Hansen (2016), Identification of periods of clear sky irradiance in time
+/// series of GHI measurements, Renewable Energy 90, p. 520.
 #pragma once
 
 #include <cstddef>
