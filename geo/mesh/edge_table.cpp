@@ -36,7 +36,7 @@ std::vector<EdgeUse> edge_uses(const Mesh& mesh, const std::vector<std::uint8_t>
 
 bool is_foot_of_wall(const Mesh& mesh, const EdgeUse& use) {
   const std::size_t t = use.triangle();
-  const Vec3 apex = mesh.corner(t, static_cast<int>((use.corner() + 2) % 3));
+  const Vec3 apex = apex_of(mesh, use);
   const double low = mesh.vertices[static_cast<std::size_t>(use.low)].z,
                high = mesh.vertices[static_cast<std::size_t>(use.high)].z;
   return slope_of(mesh, t) == Slope::upright && apex.z > std::max(low, high);
@@ -49,8 +49,7 @@ std::vector<double> angles_about(const Mesh& mesh, std::span<const EdgeUse> uses
   const auto frame = tangents(length > 0 ? edge / length : Vec3{0, 0, 1});
   std::vector<double> angles;
   for (const auto& use : uses) {
-    const auto corner = static_cast<int>((use.corner() + 2) % 3);
-    const Vec3 apex = mesh.corner(use.triangle(), corner) - start;
+    const Vec3 apex = apex_of(mesh, use) - start;
     angles.push_back(std::atan2(dot(apex, frame.bitangent), dot(apex, frame.tangent)));
   }
   return angles;

@@ -41,6 +41,11 @@ void for_each_edge(const std::vector<EdgeUse>& uses, Visit visit) {
 /// from its higher vertex, from a direction of its own.
 std::vector<double> angles_about(const Mesh& mesh, std::span<const EdgeUse> uses);
 
+/// Corner of the use's triangle that is not on the edge.
+inline Vec3 apex_of(const Mesh& mesh, const EdgeUse& use) {
+  return mesh.corner(use.triangle(), static_cast<int>((use.corner() + 2) % 3));
+}
+
 /// Whether the edge is the lower one of an upright triangle that stands on it.
 bool is_foot_of_wall(const Mesh& mesh, const EdgeUse& use);
 

@@ -190,7 +190,7 @@ class FootFinder {
 
   /// Whether the upright triangle goes up from the edge.
   bool is_above(const EdgeUse& use, Vec3 a, Vec3 b) const {
-    const Vec3 p = mesh_.corner(use.triangle(), static_cast<int>((use.corner() + 2) % 3));
+    const Vec3 p = apex_of(mesh_, use);
     const double ex = b.x - a.x, ey = b.y - a.y;
     const double s = ((p.x - a.x) * ex + (p.y - a.y) * ey) / (ex * ex + ey * ey);
     return p.z > a.z + s * (b.z - a.z);

@@ -175,7 +175,7 @@ class Sheets {
   }
   /// The triangle hangs below the edge, which is not upright.
   bool is_top_of_wall(const EdgeUse& use) const {
-    const Vec3 apex = mesh_.corner(use.triangle(), static_cast<int>((use.corner() + 2) % 3));
+    const Vec3 apex = apex_of(mesh_, use);
     const Vec3 along = high(use) - low(use);
     const double in_plan = length_in_plan(use);
     if (!(in_plan > std::abs(along.z) / 4)) return false;
@@ -187,7 +187,7 @@ class Sheets {
   /// away from the sheet. (Terrain ends at walls that look at it.)
   double length_at(const WallTriangles& walls, const EdgeUse& use) const {
     constexpr int pieces = 4;
-    const Vec3 apex = mesh_.corner(use.triangle(), static_cast<int>((use.corner() + 2) % 3));
+    const Vec3 apex = apex_of(mesh_, use);
     const Vec3 along = high(use) - low(use), inward = apex - low(use) - along / 2;
     int at_walls = 0;
     for (int k = 0; k < pieces; ++k) {

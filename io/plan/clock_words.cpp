@@ -4,13 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "geo/base/units.h"
 #include "geo/time/time.h"
+#include "io/study/words.h"
 
 namespace sunload {
 
@@ -33,17 +32,14 @@ std::string shift_words(const ClockShift& shift) {
   const double farther = is_late ? shift.whole.upper : -shift.whole.lower;
   return fmt::format(
       "over {} clear days its light comes {} min {} than the sun of its stamps (half of these "
-      "days: "
-      "{} to {} min)",
+      "days: {} to {} min)",
       shift.days, minutes(std::abs(shift.whole.median)), is_late ? "later" : "earlier",
       minutes(nearer), minutes(farther));
 }
 
 /// `light.stamp: end`, where another stamp would take the shift away.
 std::string stamp_words(double shift_s, double step_s, Stamp stamp) {
-  constexpr std::array<std::pair<Stamp, const char*>, 3> stamps{
-      {{Stamp::start, "start"}, {Stamp::middle, "middle"}, {Stamp::end, "end"}}};
-  for (const auto& [other, name] : stamps) {
+  for (const auto& [name, other] : words_of(Stamp{})) {
     const double earlier_s = (static_cast<int>(other) - static_cast<int>(stamp)) * step_s / 2;
     if (other != stamp && std::abs(shift_s - earlier_s) <= same_shift_s)
       return fmt::format("light.stamp: {}", name);

@@ -23,8 +23,7 @@
 ///
 /// A ray brings the share of light that passes the crowns and screens that it crosses: behind one
 /// that covers all of a receiver there is no noise. Surfaces send on that share of what a ray
-/// brings
-/// (`lit_samples`).
+/// brings (`lit_samples`).
 #pragma once
 
 #include <array>
