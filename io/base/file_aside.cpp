@@ -20,6 +20,7 @@
 #include <random>
 
 #include "geo/base/check.h"
+#include "io/base/file_writing.h"
 #include "io/base/hash.h"
 
 namespace sunload {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "io/base/file_aside.h"
+#include "io/base/file_writing.h"
 
 namespace sunload {
 

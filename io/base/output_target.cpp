@@ -8,13 +8,12 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "geo/base/check.h"
-#include "io/base/machine.h"
+#include "io/base/file_writing.h"
 #include "io/base/standard_streams.h"
 
 namespace sunload {
@@ -54,28 +53,6 @@ class Descriptor {
 };
 
 }  // namespace
-
-int write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
-
-void throw_cannot_write(const std::string& path, int error_number) {
-  std::string why = std::strerror(error_number);
-  // The same number for bytes and for inodes.
-  std::error_code missing;
-  if (const fs::path folder = fs::path(path).parent_path();
-      error_number == ENOSPC && fs::is_directory(folder, missing))
-    if (const std::string problem = folder_problem(folder); !problem.empty()) why += ": " + problem;
-  const std::string text = "cannot write " + path + ": " + why;
-  if (error_number == ENOENT || error_number == ESTALE) throw VanishedError(text);
-  throw MachineError(text);
-}
 
 OutputTarget output_target(const std::string& path) {
   if (path == "-") return {OutputTarget::Kind::descriptor, path, STDOUT_FILENO};

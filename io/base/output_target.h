@@ -4,7 +4,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "geo/base/check.h"
@@ -36,19 +35,5 @@ void write_into(const OutputTarget& target, const std::string& from, const std::
 /// for, where the output is a file that goes with it.
 void expect_not_read(const std::string& output, const std::vector<std::string>& inputs,
                      const std::string& written_with = {});
-
-/// Writes all of the bytes to an open file, whatever interrupts it. Returns the number of the
-/// error, or 0.
-int write_all(int file, std::string_view bytes);
-
-/// Where something was written is nothing any more: somebody removes files or folders meanwhile, or
-/// the folder never was there.
-class VanishedError : public MachineError {
-  using MachineError::MachineError;
-};
-
-/// MachineError "cannot write `path`: <text of the error number>"; VanishedError of a file or
-/// folder that is not there.
-[[noreturn]] void throw_cannot_write(const std::string& path, int error_number);
 
 }  // namespace sunload

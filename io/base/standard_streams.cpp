@@ -11,8 +11,8 @@
 #include <streambuf>
 #include <string>
 
+#include "io/base/file_writing.h"
 #include "io/base/names.h"
-#include "io/base/output_target.h"
 
 namespace sunload {
 namespace {

@@ -15,6 +15,7 @@
 #include "geo/base/check.h"
 #include "io/base/deflate.h"
 #include "io/base/file_aside.h"
+#include "io/base/file_writing.h"
 
 static_assert(std::endian::native == std::endian::little,
               "numbers are stored as they lie in memory");

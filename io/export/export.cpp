@@ -11,6 +11,7 @@
 
 #include "geo/base/check.h"
 #include "io/base/file_aside.h"
+#include "io/base/file_writing.h"
 #include "io/export/format.h"
 
 namespace sunload {

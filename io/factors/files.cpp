@@ -8,7 +8,7 @@
 
 #include "geo/base/check.h"
 #include "io/base/file_aside.h"
-#include "io/base/output_target.h"
+#include "io/base/file_writing.h"
 #include "io/base/text.h"
 #include "io/factors/factors.h"
 #include "io/result/netcdf_file.h"

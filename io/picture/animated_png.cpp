@@ -6,6 +6,7 @@
 
 #include "geo/base/check.h"
 #include "io/base/deflate.h"
+#include "io/base/file_writing.h"
 
 namespace sunload {
 namespace {

@@ -13,6 +13,7 @@
 
 #include "io/base/deflate.h"
 #include "io/base/file_aside.h"
+#include "io/base/file_writing.h"
 
 namespace sunload {
 namespace {

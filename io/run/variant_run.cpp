@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/base/file_writing.h"
 #include "io/base/machine.h"
-#include "io/base/output_target.h"
 #include "io/base/waiting_lock.h"
 #include "io/batch/batch_tally.h"
 #include "io/batch/file.h"

@@ -12,6 +12,7 @@
 
 #include "geo/base/check.h"
 #include "io/base/file_aside.h"
+#include "io/base/file_writing.h"
 #include "io/base/machine.h"
 #include "io/base/merge_lock.h"
 #include "io/result/reader.h"

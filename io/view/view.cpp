@@ -13,6 +13,7 @@
 #include "geo/base/check.h"
 #include "io/base/colour_map.h"
 #include "io/base/file_aside.h"
+#include "io/base/file_writing.h"
 #include "io/base/scene_colours.h"
 #include "io/base/standard_streams.h"
 #include "io/result/lacking.h"
