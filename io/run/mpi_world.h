@@ -40,4 +40,8 @@ class MpiWorld {
   std::unique_ptr<Ranks> ranks_;
 };
 
+/// Whether a process says what all that work in `world` would say of the study: the first of them,
+/// and one that works alone (null).
+inline bool speaks_for_all(const MpiWorld* world) { return !world || world->is_first(); }
+
 }  // namespace sunload

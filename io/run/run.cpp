@@ -77,14 +77,13 @@ std::list<VariantJob> planned_jobs(const StudyWork& work,
 }
 
 /// Null where this process is no rank, or has a shard of its own among them.
-std::unique_ptr<MpiWorld> joined_world(const StudyWork& work) {
-  const Shard& shard = work.options.shard;
+std::unique_ptr<MpiWorld> joined_world(const StudyFile& file, const Shard& shard) {
   if (shard.is_rank) return {};
   if (!shard.is_whole() && MpiWorld::is_launched())
     throw InputError({}, "--shard under MPI",
                      "ranks share the work by themselves, and all of them would have this shard",
                      "leave --shard away, start without mpirun, or use --shard auto");
-  return MpiWorld::join(work.file.variants.size());
+  return MpiWorld::join(file.variants.size());
 }
 
 /// Ranks that disagree of what is left to do would wait for each other for ever.
@@ -135,12 +134,13 @@ std::vector<std::string> results_not_there(const StudyWork& work) {
 int run_study(const std::string& path, const RunOptions& options) {
   use_threads(options);
   const StudyFile file = read_study(path);
+  const auto world = joined_world(file, options.shard);
   Progress progress(options.progress, options.time_limit_min);
-  for (const auto& warning : file.warnings) progress.warn("warning: " + warning);
+  if (speaks_for_all(world.get()))
+    for (const auto& warning : file.warnings) progress.warn("warning: " + warning);
   SharedRays rays;
   const StudyWork work{file, options, results_folder(file, options), progress, rays};
   std::list<VariantJob> jobs = planned_jobs(work, &VariantJob::expect_may_run);
-  const auto world = joined_world(work);
   if (world) expect_same_jobs(jobs, work.folder, *world);
   remove_left_over(work.folder, file.name);
   for (const auto& job : jobs) job.expect_room();

@@ -197,11 +197,12 @@ UnitQueue VariantJob::own_units(MpiWorld* world) const {
   return {place_of(name_, work_.file), plan_.batches(), work_.options.shard, world};
 }
 
-void VariantJob::begin(const UnitQueue& units) {
+void VariantJob::begin(const UnitQueue& units, const MpiWorld* world) {
   std::size_t suns = 0;
   for (std::size_t b = 0; b < plan_.batches(); ++b)
     if (units.may_give(b)) suns += sun_count(plan_, b);
   work_.progress.begin_variant(name_, suns);
+  if (!speaks_for_all(world)) return;
   if (const auto other = batches_of_other_isa())
     warn(
         fmt::format("{} holds batches computed with {}, and is not used: this processor uses {}, "
@@ -220,7 +221,8 @@ std::unique_ptr<VariantRun> VariantJob::start(MpiWorld* world) {
   make_mesh();
   if (const auto text = refine_text(mesh_.report, plan_.study); !text.empty()) say(text);
   expect_room();
-  for (const auto& line : expected_error_warnings(plan_, *mesh_.mesh)) warn(line);
+  if (speaks_for_all(world))
+    for (const auto& line : expected_error_warnings(plan_, *mesh_.mesh)) warn(line);
   folder_.make();
   auto run = std::make_unique<VariantRun>(folder_, plan_, mesh_.mesh, work_.progress,
                                           work_.rays.of(rays_key_));
@@ -237,7 +239,7 @@ bool VariantJob::is_there(std::size_t batch) const {
 
 void VariantJob::compute(MpiWorld* world) {
   UnitQueue units = own_units(world);
-  begin(units);
+  begin(units, world);
   try {
     compute_missing(units, world);
   } catch (...) {

@@ -102,7 +102,7 @@ class VariantJob {
   void refuse_other_isa() const;
   void refuse_other_state(const char* hint) const;
   UnitQueue own_units(MpiWorld* world) const;
-  void begin(const UnitQueue& units);
+  void begin(const UnitQueue& units, const MpiWorld* world);
   void make_mesh();
   std::unique_ptr<VariantRun> start(MpiWorld* world);
   void compute_missing(UnitQueue& units, MpiWorld* world);

@@ -47,6 +47,7 @@ VariantRun::~VariantRun() {
 }
 
 void VariantRun::prepare(MpiWorld* world) {
+  speaks_for_all_ = speaks_for_all(world);
   rules_ = decided_rules(plan_, mesh_, progress_);
   if (!plan_.seasons.all.empty()) return build_seasons();
   if (!world) return read_or_trace();
@@ -122,6 +123,7 @@ void VariantRun::add(std::unique_ptr<TracedSeason> season) {
   unwritten_ += season->work();
   done_ = unwritten_;
   seasons_.push_back(std::move(season));
+  if (!speaks_for_all_) return;
   if (seasons_.size() == 1) warn_of_sensors();
   tell_reduction(*seasons_.back());
 }

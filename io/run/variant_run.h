@@ -73,6 +73,7 @@ class VariantRun {
   const VariantPlan& plan_;
   std::shared_ptr<const Hierarchy> mesh_;
   Progress& progress_;
+  bool speaks_for_all_ = true;  ///< of those that prepare together
   TracedRays* shared_;
   SolverRules rules_;                                   ///< of the solver, counts decided
   std::vector<std::unique_ptr<TracedSeason>> seasons_;  ///< one where materials stay

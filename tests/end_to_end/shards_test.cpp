@@ -9,6 +9,7 @@
 #include <csignal>
 #include <filesystem>
 #include <regex>
+#include <sstream>
 #include <thread>
 
 #include "io/base/waiting_lock.h"
@@ -375,6 +376,70 @@ TEST(Shards, RanksOfMpiGiveTheSameBits) {
     EXPECT_EQ(folder.content("results"),
               (std::vector<std::string>{"street/", "street/baseline.h5"}));
   }
+}
+
+/// Warned of by its file, twice, by its scene and by its mesh.
+std::string doubtful_study() {
+  std::string text = street_study();
+  for (const auto& [is, by] :
+       {std::pair("{name: street}", "{name: street}, materials: {idle: {glossy_exponent: 20}}"),
+        std::pair("max_edge_m: 4", "max_edge_m: 4, light_threshold_m2: 1"),
+        std::pair("lines_per_patch: 64", "lines_per_patch: 16")})
+    text.replace(text.find(is), std::string(is).size(), by);
+  return text;
+}
+
+/// Lines that have the words, in an order of their own: those of ranks come in any.
+std::vector<std::string> lines_with(const std::string& words, const std::string& text) {
+  std::vector<std::string> found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find(words) != std::string::npos) found.push_back(line);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(Shards, RanksSayOnceWhatIsOfTheStudy) {
+  if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
+  const WorkFolder folder;
+  folder.write("street.yaml", doubtful_study());
+  const auto warnings =
+      lines_with("warning:", program(folder, {"run", "street.yaml", "--output", "by_one"}).err);
+  EXPECT_EQ(warnings.size(), 4u);
+  Process process(rank_words(3, {"run", "street.yaml", "--output", "by_ranks"}), folder.path());
+  const Ran ran = process.wait();
+  if (ran.err.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << no_mpi;
+  EXPECT_EQ(lines_with("warning:", ran.err), warnings);
+}
+
+// They are commands of their own, perhaps on other machines, and may never meet.
+TEST(Shards, EachSaysWhatIsOfTheStudy) {
+  const WorkFolder folder;
+  folder.write("street.yaml", doubtful_study());
+  const auto warnings = lines_with("warning:", shard(folder, 0, 2).err);
+  EXPECT_EQ(warnings.size(), 4u);
+  EXPECT_EQ(lines_with("warning:", shard(folder, 1, 2).err), warnings);
+}
+
+TEST(Shards, RanksSayThemselvesWhatEachFinds) {
+  if (mpirun().empty()) GTEST_SKIP() << no_mpirun;
+  const WorkFolder folder;
+  folder.write("street.yaml", street_study());
+  EXPECT_EQ(shard(folder, 0, 2).code, 0);
+  const auto damaged = files(folder, ".batch");
+  EXPECT_EQ(damaged.size(), 3u);
+  for (const auto& batch : damaged) {
+    const std::string path = folder / ("results/" + batch);
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  }
+  Process process(rank_words(3, {"run", "street.yaml", "--threads", "1"}), folder.path());
+  const Ran ran = process.wait();
+  if (ran.err.find("this build has no MPI") != std::string::npos) GTEST_SKIP() << no_mpi;
+  const auto found = lines_with("it is computed again", ran.err);
+  ASSERT_EQ(found.size(), damaged.size()) << ran.err;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NE(found[i].find(damaged[i]), std::string::npos) << found[i];
+  expect_same_result(folder);
 }
 
 // Each process is a shard, and needs no MPI for it.
