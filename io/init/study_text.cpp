@@ -158,10 +158,15 @@ std::string weather_text(const InitRules& rules, const Findings& found, const st
   if (found.records_incomplete > 0)
     text += fmt::format("# {} {} records lack a value or a row: made of their neighbours\n", mark,
                         found.records_incomplete);
+  const BelowZero& too_low = found.weather->too_low;
+  if (too_low.count > 0)
+    text += fmt::format("# {} {} values are too low (line {}, {}): made of their neighbours\n",
+                        mark, too_low.count, too_low.line, too_low.first);
+  const bool is_filled = found.records_incomplete > 0 || too_low.count > 0;
   return text + fmt::format("light: {{source: weather, weather: {}, {}{}sky: perez}}\n\n",
                             path_from(folder, rules.weather),
                             found.is_stamp_known ? "" : "stamp: end, ",
-                            found.records_incomplete > 0 ? "missing: interpolate, " : "");
+                            is_filled ? "missing: interpolate, " : "");
 }
 
 std::string period_text(const InitRules& rules, const Findings& found, const std::string& folder) {

@@ -14,7 +14,7 @@
 namespace sunload {
 
 /// Raised when results change, not at every commit: part of the content hash.
-inline constexpr int numerics_version = 50;
+inline constexpr int numerics_version = 51;
 
 /// SHA-256 of everything that can change a number: the study's canonical text, the scene as
 /// prepared, times and weather, the instruction set that rays are traced with, `numerics_version`;

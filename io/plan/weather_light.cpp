@@ -71,6 +71,7 @@ StudyWeather::StudyWeather(const Study& study, const Site& site)
   if (std::holds_alternative<WeatherPeriod>(study.period.kind)) date_own_year();
   expect_one_offset();
   say_file();
+  say(below_zero_words(file_, study_.light.missing));
   if (!dated_.empty()) fill_own_holes();
 }
 

@@ -40,6 +40,12 @@ void add_contradiction(const WeatherDoubt& doubt, double ghi_wh_m2, const char* 
   }
 }
 
+/// Where to look for them.
+std::string place_words(const BelowZero& values, const std::string& path) {
+  return fmt::format("the lowest is {:g} W/m2, the first {}:{} ({})", values.lowest_w_m2, path,
+                     values.line, values.first);
+}
+
 }  // namespace
 
 std::string source_words(WeatherSource source, Decomposition decomposition) {
@@ -115,6 +121,28 @@ std::string lacking_light_warning(const Closure& closure, const std::string& pat
       "instead of {:.4g} W/m2 in the mean): light is made from DNI and DHI, sun and sky bring less "
       "than the ground is said to get; are values that were not measured written as 0? {}",
       100 * lacking / all, closure.intervals, all - lacking, all, hint);
+}
+
+WeatherSayings below_zero_words(const WeatherFile& file, Missing missing) {
+  const BelowZero &offsets = file.offsets, &too_low = file.too_low;
+  if (too_low.count > 0 && missing == Missing::refuse)
+    throw InputError(
+        {file.path, too_low.line, 0}, too_low.first + " is too low for an irradiance",
+        fmt::format("offsets of instruments reach {:g} W/m2; lower values in the file: {}, the "
+                    "lowest is {:g} W/m2",
+                    lowest_offset_w_m2, too_low.count, too_low.lowest_w_m2),
+        "correct them, or write light.missing: interpolate or zero, which fills them");
+  WeatherSayings sayings;
+  if (offsets.count > 0)
+    sayings.warnings.push_back(fmt::format(
+        "weather: {} values from {:g} up to 0 W/m2 are taken as 0, as offsets of instruments: {}",
+        offsets.count, lowest_offset_w_m2, place_words(offsets, file.path)));
+  if (too_low.count > 0)
+    sayings.warnings.push_back(fmt::format(
+        "weather: {} values below {:g} W/m2, which offsets of instruments do not reach, are taken "
+        "as missing: {}",
+        too_low.count, lowest_offset_w_m2, place_words(too_low, file.path)));
+  return sayings;
 }
 
 WeatherSayings doubt_words(const WeatherDoubts& doubts, const std::string& path) {

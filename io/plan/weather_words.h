@@ -8,6 +8,7 @@
 
 #include "geo/sun/weather.h"
 #include "geo/sun/weather_doubts.h"
+#include "io/weather/file.h"
 
 namespace sunload {
 
@@ -26,6 +27,9 @@ struct WeatherSayings {
 /// Warns where sun and sky bring much less than the ground receives; empty where they do not.
 /// Throws InputError where they bring nothing at all. `path`: of the file.
 std::string lacking_light_warning(const Closure& closure, const std::string& path);
+/// Warns of values below zero that are taken as 0, and of lower ones that are filled. Throws
+/// InputError where `missing` does not let them be.
+WeatherSayings below_zero_words(const WeatherFile& file, Missing missing);
 /// With amounts; `path`: of the file.
 WeatherSayings doubt_words(const WeatherDoubts& doubts, const std::string& path);
 /// Of direct light in the dark; a warning where it is much of the light of these records.

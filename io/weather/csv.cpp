@@ -209,7 +209,7 @@ WeatherFile read_weather_csv(const WeatherText& text, std::optional<Stamp> stamp
               "the beginning, the middle or the end of each row's stretch",
               "write light.stamp: start, middle or end");
   WeatherFile file{text.path(), "CSV", place_of(text, head), zone_of(text, head), {}, {}};
-  IrradianceReader irradiance(text, no_code);
+  IrradianceReader irradiance(text, no_code, file);
   StampReader stamps(text, head);
   std::vector<StampedRow> rows;
   for (std::size_t line = head.line + 1; line <= text.line_count(); ++line) {
@@ -231,7 +231,6 @@ WeatherFile read_weather_csv(const WeatherText& text, std::optional<Stamp> stamp
   }
   file.records = records_of(text, rows, *stamp);
   if (stamps.are_utc()) file.offset_s = 0;
-  irradiance.add_notes(file.notes);
   return file;
 }
 

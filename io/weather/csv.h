@@ -9,8 +9,8 @@
 ///
 /// `time` is ISO 8601, with `Z` or an offset in all rows or in none; instead of it there may
 /// be `date` and `time` columns. Of dni_w_m2, dhi_w_m2, ghi_w_m2 (or dni, dhi, ghi) and of albedo
-/// what is there is read; other columns are left alone. Empty fields, nan, na and values that no
-/// instrument measures below zero (-999) are missing.
+/// what is there is read; other columns are left alone. Empty fields, nan, na and codes below
+/// zero (-999) are missing.
 #pragma once
 
 #include "io/weather/text.h"

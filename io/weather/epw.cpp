@@ -208,7 +208,7 @@ bool is_epw(const WeatherText& text) { return begins_with_word(text.line(1), "lo
 WeatherFile read_epw(const WeatherText& text) {
   const EpwHeader header = read_header(text);
   WeatherFile file{text.path(), "EPW", header.place, header.offset_s, {}, {}};
-  IrradianceReader irradiance(text, missing_from);
+  IrradianceReader irradiance(text, missing_from, file);
   HourCounter hours(text, header.records_per_hour);
   const double length = seconds_per_hour / header.records_per_hour;
   std::size_t wanted = fewest_fields;
@@ -242,7 +242,6 @@ WeatherFile read_epw(const WeatherText& text) {
     text.fail(text.line_count(), "the last day is not whole", "", "is the file cut off?");
   forget_years_that_do_not_follow(file.records);
   put_about_moments(header, file);
-  irradiance.add_notes(file.notes);
   return file;
 }
 

@@ -19,6 +19,17 @@ struct WeatherPlace {
   double elevation_m = 0;
 };
 
+/// Pyranometers lose heat to the sky: the zero offset of those of class B (ISO 9060:2018) [W m-2].
+inline constexpr double lowest_offset_w_m2 = -15;
+
+/// Irradiances below zero.
+struct BelowZero {
+  std::size_t count = 0;
+  double lowest_w_m2 = 0;
+  int line = 0;       ///< of the first
+  std::string first;  ///< "dni: -2.5 W/m2"
+};
+
 /// A weather file as read, before it is dated and filled.
 struct WeatherFile {
   std::string path;
@@ -28,6 +39,8 @@ struct WeatherFile {
   std::optional<double> offset_s;
   std::vector<WeatherRecord> records;  ///< at least one, in order
   std::vector<std::string> notes;
+  BelowZero offsets{};  ///< values from `lowest_offset_w_m2` on, which are 0 in the records
+  BelowZero too_low{};  ///< lower ones that are no codes of missing values; absent in the records
 };
 
 /// `stamp`: absent is the format's own (EPW, TMY3 end; WEA middle); CSV needs one.

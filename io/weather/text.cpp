@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -18,15 +19,20 @@ namespace sunload {
 
 namespace {
 
-/// Thermal offset of pyranometers at night: the least that is physically possible in the
-/// quality tests of the Baseline Surface Radiation Network (Long & Dutton 2002).
-constexpr double least_measured_w_m2 = -4;
+/// Codes of missing values: nines, and all from -999 down (-6999, -9900).
+constexpr std::array nines_w_m2{-9., -9.9, -9.99, -99., -99.9, -99.99};
+constexpr double highest_long_code_w_m2 = -999;
 /// Above the sun outside of the atmosphere (1408 at perihelion) with a bright cloud beside it.
 constexpr double most_measured_w_m2 = 2000;
 constexpr std::size_t longest_shown = 40;
 constexpr double shortest_step_s = 1;  // no file resolves less
 /// Steps that are rounded in the file (decimal hours) differ by less than this.
 constexpr double step_resolution_s = 1;
+
+bool is_code_below_zero(double value) {
+  return value <= highest_long_code_w_m2 ||
+         std::find(nines_w_m2.begin(), nines_w_m2.end(), value) != nines_w_m2.end();
+}
 
 bool is_printable(char c) { return c >= ' ' && c <= '~'; }
 
@@ -105,19 +111,23 @@ std::optional<double> IrradianceReader::operator()(std::string_view field, std::
   if (word == "nan" || word == "na" || word == "null") return {};
   constexpr double beyond_all_codes = 1e12;
   const double value = text_.number(field, line, column, -beyond_all_codes, beyond_all_codes);
-  if (value >= missing_from_ || value < least_measured_w_m2) return {};
+  if (value >= missing_from_ || is_code_below_zero(value)) return {};
   if (value > most_measured_w_m2)
     text_.fail(line, fmt::format("{}: {} W/m2 is not possible", column, value),
                fmt::format("at most {} W/m2", most_measured_w_m2));
-  if (value < 0) ++raised_;
-  return std::max(0.0, value);
+  return value < 0 ? below_zero(value, line, column) : std::abs(value);
 }
 
-void IrradianceReader::add_notes(std::vector<std::string>& notes) const {
-  if (raised_ > 0)
-    notes.push_back(
-        fmt::format("{} values down to {} W/m2 (the offset of instruments at night) are taken as 0",
-                    raised_, least_measured_w_m2));
+std::optional<double> IrradianceReader::below_zero(double value, std::size_t line,
+                                                   const char* column) {
+  const bool is_offset = value >= lowest_offset_w_m2;
+  BelowZero& such = is_offset ? file_.offsets : file_.too_low;
+  if (such.count++ == 0) {
+    such.line = static_cast<int>(line);
+    such.first = fmt::format("{}: {} W/m2", column, value);
+  }
+  such.lowest_w_m2 = std::min(such.lowest_w_m2, value);
+  return is_offset ? std::optional(0.0) : std::nullopt;
 }
 
 std::optional<double> ground_albedo(std::string_view field) {

@@ -47,22 +47,23 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator);
 /// Printable and short, for messages.
 std::string shown(std::string_view field);
 
-/// Reads irradiances and counts what is not as it should be.
+/// Reads irradiances, and tells the file what is below zero.
 class IrradianceReader {
  public:
   /// Values of `missing_from` and more are the format's code for missing ones.
-  IrradianceReader(const WeatherText& text, double missing_from)
-      : text_(text), missing_from_(missing_from) {}
-  /// Absent for the codes, empty fields, and what no instrument can measure below zero;
-  /// throws InputError for text and for more than any sky gives.
+  IrradianceReader(const WeatherText& text, double missing_from, WeatherFile& file)
+      : text_(text), missing_from_(missing_from), file_(file) {}
+  /// Absent for that code, nines below zero (-9, -9.9, -99 ...), -999 and lower, empty fields, and
+  /// what no instrument's offset reaches; throws InputError for text and for more than any sky
+  /// gives.
   std::optional<double> operator()(std::string_view field, std::size_t line, const char* column);
-  /// One note on values that were raised to zero, if there were any.
-  void add_notes(std::vector<std::string>& notes) const;
 
  private:
+  std::optional<double> below_zero(double value, std::size_t line, const char* column);
+
   const WeatherText& text_;
   double missing_from_;
-  std::size_t raised_ = 0;
+  WeatherFile& file_;
 };
 
 /// Albedo of the ground; absent for everything that no ground has: 0, which fills the column of

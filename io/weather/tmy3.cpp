@@ -91,7 +91,7 @@ WeatherFile read_tmy3(const WeatherText& text, std::optional<Stamp> stamp) {
   if (!columns.ghi && !columns.dni && !columns.dhi)
     text.fail(names_line, "no column of irradiance",
               "GHI (W/m^2), DNI (W/m^2), DHI (W/m^2) are sought");
-  IrradianceReader irradiance(text, no_code);  // missing values are negative
+  IrradianceReader irradiance(text, no_code, file);  // missing values are negative
   std::vector<StampedRow> rows;
   for (std::size_t line = first_row; line <= text.line_count(); ++line) {
     if (trimmed(text.line(line)).empty()) continue;
@@ -110,7 +110,6 @@ WeatherFile read_tmy3(const WeatherText& text, std::optional<Stamp> stamp) {
   }
   file.records = records_of(text, rows, stamp.value_or(Stamp::end));
   forget_years_that_do_not_follow(file.records);
-  irradiance.add_notes(file.notes);
   return file;
 }
 

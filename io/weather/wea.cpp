@@ -82,7 +82,7 @@ WeatherFile read_wea(const WeatherText& text, std::optional<Stamp> stamp) {
     text.fail(header.line(), "weather_data_file_units 3 is illuminance", "irradiance is needed",
               "write the file with units 1");
   WeatherFile file{text.path(), "WEA", place, offset_s, {}, {}};
-  IrradianceReader irradiance(text, no_code);
+  IrradianceReader irradiance(text, no_code, file);
   std::vector<StampedRow> rows;
   for (std::size_t line = header.line() + 1; line <= text.line_count(); ++line) {
     const auto words = words_of(text.line(line));
@@ -105,7 +105,6 @@ WeatherFile read_wea(const WeatherText& text, std::optional<Stamp> stamp) {
     rows.push_back(row);
   }
   file.records = records_of(text, rows, stamp.value_or(Stamp::middle));
-  irradiance.add_notes(file.notes);
   return file;
 }
 

@@ -262,6 +262,17 @@ TEST(Init, RowsThatAreMissingAreMadeOfTheirNeighbours) {
   EXPECT_NE(text.find("1 records lack a value or a row"), std::string::npos) << text;
 }
 
+TEST(Init, ValuesThatAreTooLowAreMadeOfTheirNeighbours) {
+  const WorkFolder folder;
+  std::string csv = "# latitude_deg: 50\n# longitude_deg: 14\ntime,dni_w_m2,dhi_w_m2\n";
+  for (int hour = 1; hour <= 24; ++hour)
+    csv += fmt::format("2026-06-21T{:02}:00,{},40\n", hour, hour == 11 ? -60 : 100);
+  const auto [study, text] = begun(
+      folder, {.model = folder.write("box.obj", box), .weather = folder.write("low.csv", csv)});
+  EXPECT_EQ(study.light.missing, Missing::interpolate);
+  EXPECT_NE(text.find("1 values are too low (line 14, dni: -60 W/m2)"), std::string::npos) << text;
+}
+
 /// Of a station in the far east: its noon is near midnight of UTC, which is no zone of its own.
 TEST(Init, RowsInUtcHaveTheDaysOfTheirStation) {
   const WorkFolder folder;

@@ -344,6 +344,34 @@ TEST(WeatherLight, WhatIsLeftIsFilledFromCompletedRecords) {
   EXPECT_NE(why.find("GHI is missing here (1 of 24 records"), std::string::npos) << why;
 }
 
+TEST(WeatherLight, OffsetsOfInstrumentsAreZero) {
+  const auto light = series_of_two("300,80,", "-6.5,80,", 12, 14);
+  EXPECT_EQ(light.intervals[12].mean.dni, 0);
+  EXPECT_TRUE(tells(light.notes,
+                    "2 values from -15 up to 0 W/m2 are taken as 0, as offsets of instruments: the "
+                    "lowest is -6.5 W/m2, the first "));
+  EXPECT_TRUE(tells(light.notes, "two.csv:19 (dni: -6.5 W/m2)"));
+  EXPECT_FALSE(tells(series_of_two("300,80,", "0,80,", 12, 14).notes, "up to 0 W/m2"));
+}
+
+TEST(WeatherLight, ValuesThatNoOffsetReachesAreShown) {
+  for (const auto& [values, shown] :
+       {std::pair("-16,80,", "dni: -16 W/m2 is too low for an irradiance"),
+        std::pair("300,-500,", "dhi: -500 W/m2 is too low for an irradiance")}) {
+    const std::string why = test::refusal_of([&] { series_of_two("300,80,", values, 12, 14); });
+    EXPECT_NE(why.find(std::string("two.csv:19: ") + shown), std::string::npos) << why;
+    EXPECT_NE(why.find("lower values in the file: 2"), std::string::npos) << why;
+    EXPECT_NE(why.find("light.missing: interpolate or zero"), std::string::npos) << why;
+    EXPECT_EQ(why.find("missing here"), std::string::npos) << why;
+  }
+  const auto filled = series_of_two("300,80,", "-16,80,", 12, 14, ", missing: interpolate");
+  EXPECT_NEAR(filled.intervals[12].mean.dni, 300, 1e-9);
+  EXPECT_TRUE(tells(filled.notes,
+                    "2 values below -15 W/m2, which offsets of instruments do not reach, are taken "
+                    "as missing: the lowest is -16 W/m2, the first "));
+  EXPECT_TRUE(tells(filled.notes, "two.csv:19 (dni: -16 W/m2)"));
+}
+
 /// One value of another day makes no column.
 TEST(WeatherLight, SourceIsThatOfTheRecordsOfThePeriod) {
   write_text("two.csv", csv_of_two(",80,300", "200,90,260", 60, 61));

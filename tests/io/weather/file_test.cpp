@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <random>
@@ -251,7 +252,7 @@ TEST(Epw, PartsOfAnHourFollowEachOther) {
   }
 }
 
-TEST(Epw, CodesAndImpossibleValuesAreMissing) {
+TEST(Epw, CodesAreMissing) {
   std::string text = epw_header("0", 1, "6/1", "6/1");
   const char* values[] = {"9999", "99999", "-999", "", "0", "-2", "812.5"};
   for (int hour = 1; hour <= 24; ++hour)
@@ -262,8 +263,8 @@ TEST(Epw, CodesAndImpossibleValuesAreMissing) {
   EXPECT_EQ(file.records[5].values.dni, 0.0);
   EXPECT_EQ(file.records[6].values.dni, 812.5);
   EXPECT_FALSE(file.records[8].values.ghi);
-  ASSERT_EQ(file.notes.size(), 1u);
-  EXPECT_NE(file.notes[0].find("1 values down to -4"), std::string::npos) << file.notes[0];
+  EXPECT_EQ(file.offsets.count, 1u);
+  EXPECT_EQ(file.too_low.count, 0u);
 }
 
 TEST(Epw, FilesThatAreNotWholeAreRefusedWithTheirLine) {
@@ -618,6 +619,70 @@ TEST(BrokenWeather, IsRefusedAndNeverCrashes) {
   EXPECT_EQ(refused("broken.txt", "").empty(), false);
   std::cout << refusals << " refused, " << read_anyway << " read\n";
   EXPECT_GT(refusals, 1000);
+}
+
+/// `FORMAT` of two rows with DNI, DHI and GHI, of which it may lack the last.
+std::string text_with(const std::string& format, const std::string& dni, const std::string& dhi,
+                      const std::string& ghi) {
+  if (format == "TMY3")
+    return tmy3_head + "06/21/1988,12:00,0,1,1,1\n06/21/1988,13:00,0," + ghi + "," + dni + "," +
+           dhi + "\n";
+  if (format == "CSV")
+    return "time,ghi,dni,dhi\n2026-06-21T12:00,1,1,1\n2026-06-21T13:00," + ghi + "," + dni + "," +
+           dhi + "\n";
+  if (format == "WEA")
+    return "place a\nlatitude 50\nlongitude -14\ntime_zone -15\nsite_elevation 250\n"
+           "weather_data_file_units 1\n6 21 11.5 1 1\n6 21 12.5 " +
+           dni + " " + dhi + "\n";
+  std::string text = epw_header("0", 1, "6/1", "6/1");
+  for (int hour = 1; hour <= 24; ++hour)
+    text += hour == 2 ? epw_row(1999, 6, 1, hour, 0, ghi, dni, dhi)
+                      : epw_row(1999, 6, 1, hour, 0, "1", "1", "1");
+  return text;
+}
+
+TEST(ValuesBelowZero, AreOffsetsOfInstrumentsCodesOrTooLow) {
+  const struct {
+    const char* written;
+    std::optional<double> taken;
+    std::size_t offsets, too_low;
+  } cases[] = {
+      {"-0", 0, 0, 0},      {"-0.4", 0, 1, 0},    {"-4.5", 0, 1, 0},   {"-8.9", 0, 1, 0},
+      {"-9", {}, 0, 0},     {"-9.0", {}, 0, 0},   {"-9.9", {}, 0, 0},  {"-9.99", {}, 0, 0},
+      {"-10", 0, 1, 0},     {"-15", 0, 1, 0},     {"-15.1", {}, 0, 1}, {"-60", {}, 0, 1},
+      {"-99", {}, 0, 0},    {"-99.9", {}, 0, 0},  {"-100", {}, 0, 1},  {"-998", {}, 0, 1},
+      {"-999", {}, 0, 0},   {"-999.9", {}, 0, 0}, {"-6999", {}, 0, 0}, {"-9900", {}, 0, 0},
+      {"-99999", {}, 0, 0},
+  };
+  for (const std::string format : {"EPW", "TMY3", "WEA", "CSV"})
+    for (const auto& each : cases) {
+      const std::string of = format + " " + each.written;
+      const auto file = read("a.txt", text_with(format, each.written, "2", "3"),
+                             format == "CSV" ? std::optional(Stamp::end) : std::nullopt);
+      ASSERT_EQ(file.format, format);
+      const auto& dni = file.records[1].values.dni;
+      EXPECT_EQ(dni, each.taken) << of;
+      EXPECT_FALSE(dni && std::signbit(*dni)) << of;
+      EXPECT_EQ(file.offsets.count, each.offsets) << of;
+      EXPECT_EQ(file.too_low.count, each.too_low) << of;
+    }
+}
+
+TEST(ValuesBelowZero, OfAllThreeQuantitiesAreCountedWithTheFirstAndTheLowest) {
+  const auto file = read("a.csv",
+                         "time,dni,dhi,ghi\n2026-06-21T12:00,1,-2.5,-3\n"
+                         "2026-06-21T13:00,-14,-20,0\n2026-06-21T14:00,-1,0,-30\n",
+                         Stamp::end);
+  EXPECT_EQ(file.offsets.count, 4u);
+  EXPECT_EQ(file.offsets.lowest_w_m2, -14);
+  EXPECT_EQ(file.offsets.line, 2);
+  EXPECT_EQ(file.offsets.first, "dhi: -2.5 W/m2");
+  EXPECT_EQ(file.too_low.count, 2u);
+  EXPECT_EQ(file.too_low.lowest_w_m2, -30);
+  EXPECT_EQ(file.too_low.line, 3);
+  EXPECT_EQ(file.too_low.first, "dhi: -20 W/m2");
+  EXPECT_EQ(file.records[0].values.ghi, 0.0);
+  EXPECT_FALSE(file.records[1].values.dhi);
 }
 
 // An EPW that is cut off anywhere is never taken for a whole one.
