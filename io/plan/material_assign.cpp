@@ -53,6 +53,8 @@ std::string in_words(const AssignRule& rule) {
 std::vector<std::string> materials_in(const EditAction& action) {
   if (const auto* trees = std::get_if<AddTreesEdit>(&action))
     return {trees->shape.leaves, trees->shape.trunk};
+  if (const auto* points = std::get_if<AddTreePointsEdit>(&action))
+    return {points->leaves, points->trunk};
   if (const auto* prism = std::get_if<AddPrismEdit>(&action)) return {prism->material};
   if (const auto* added = std::get_if<AddFileEdit>(&action)) return {added->file.material};
   if (const auto* other = std::get_if<ReplaceEdit>(&action)) return {other->file.material};

@@ -22,6 +22,7 @@
 #include "io/plan/row_places.h"
 #include "io/plan/scene_models.h"
 #include "io/plan/selection.h"
+#include "io/scene/raster/tree_points.h"
 #include "io/study/file_place.h"
 
 namespace sunload {
@@ -56,7 +57,8 @@ class SceneEditor {
     return std::holds_alternative<ReplaceEdit>(action) ||
            std::holds_alternative<AddFileEdit>(action) ||
            std::holds_alternative<AddPrismEdit>(action) ||
-           std::holds_alternative<AddTreesEdit>(action);
+           std::holds_alternative<AddTreesEdit>(action) ||
+           std::holds_alternative<AddTreePointsEdit>(action);
   }
 
   [[noreturn]] void refuse(const std::string& what, const std::string& why,
@@ -343,7 +345,7 @@ class SceneEditor {
     std::vector<Point2> places{add.at};
     if (add.to) {
       const double x = add.to->u - add.at.u, y = add.to->v - add.at.v, length = std::hypot(x, y);
-      if (length / add.every_m > most_trees)
+      if (length / add.every_m > static_cast<double>(most_trees))
         refuse(fmt::format("a row of {:.0f} trees is too long", length / add.every_m + 1),
                fmt::format("it has at most {}", most_trees), "");
       places.clear();
@@ -352,25 +354,74 @@ class SceneEditor {
     }
     for (const Point2 at : {places.front(), places.back()})
       refuse_far(at, extents_of(model_), subject(), step_->where);
-    std::vector<double> feet;  // of all before there are any: no tree stands on another
-    feet.reserve(places.size());
-    for (const Point2 at : places) feet.push_back(base_of(add.base_m, at));
+    std::vector<NewTree> trees;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      trees.push_back({places[i], add.shape,
+                       places.size() == 1 ? add.name : fmt::format("{}_{}", add.name, i + 1)});
+    tell_placed("adds", planted(trees, add.base_m));
+  }
+
+  void apply(const AddTreePointsEdit& add) {
+    const auto [points, notes] = read_tree_points(add.path, add.rules, crs(), study_.scene.unit_m);
+    std::vector<NewTree> trees;
+    const ObjectExtent model = whole();
+    for (const auto& [place, height_m, crown_m, name] : points)
+      if (model.is_empty() || distance_in_plan(model, place) <= beside_model_m)
+        trees.push_back({place,
+                         {height_m, crown_m, add.trunk_share * height_m, add.leaves, add.trunk},
+                         fmt::format("{}_{}", add.name, name)});
+    if (trees.empty()) {
+      refuse_far(points.front().place, extents_of(model_), subject(), step_->where);
+      refuse(fmt::format("none of {} trees stands on the model or less than {:g} m beside it",
+                         points.size(), beside_model_m),
+             "others are left out", "are they of this place?");
+    }
+    if (trees.size() > most_trees)
+      refuse(fmt::format("{} trees are too many", trees.size()),
+             fmt::format("there may be {}", most_trees), "cut the file to the place first");
+    for (const auto& note : notes) model_.notes.push_back(fmt::format("{}: {}", subject(), note));
+    if (const std::size_t left_out = points.size() - trees.size(); left_out > 0)
+      model_.notes.push_back(fmt::format("{}: {} trees more than {:g} m beside the model left out",
+                                         subject(), left_out, beside_model_m));
+    tell_placed("adds", planted(trees, {}));
+  }
+
+  struct NewTree {
+    Point2 place;
+    TreeShape shape;
+    std::string name;
+  };
+  /// Adds them all; none stands on another. Returns the names that they have got.
+  std::vector<std::string> planted(const std::vector<NewTree>& trees,
+                                   const std::optional<double>& base_m) {
+    std::vector<double> feet;  // before there are any of them
+    feet.reserve(trees.size());
+    for (const NewTree& tree : trees) feet.push_back(base_of(base_m, tree.place));
     auto taken = names_taken();
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      names.push_back(unused_name(
-          places.size() == 1 ? add.name : fmt::format("{}_{}", add.name, i + 1), taken));
-      add_tree(model_, {places[i].u, places[i].v, feet[i]}, add.shape,
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+      const auto& [place, shape, name] = trees[i];
+      names.push_back(unused_name(name, taken));
+      add_tree(model_, {place.u, place.v, feet[i]}, shape,
                {names.back(), "SolitaryVegetationObject", ""});
     }
-    tell_placed("adds", names);
+    return names;
+  }
+
+  ObjectExtent whole() const {
+    std::vector<Vec3> corners;
+    for (const auto& extent : extents_of(model_))
+      if (!extent.is_empty()) corners.insert(corners.end(), {extent.box.low, extent.box.high});
+    return corners.empty() ? ObjectExtent{} : ObjectExtent{bounding_box(corners)};
   }
 
   /// Types are of cities alone: in plain files all are decided by shape, but for trees, whose
   /// crowns are no roofs and carry no ground.
   std::string kind_of(const char* kind) const { return model_.is_city_format ? kind : ""; }
 
-  static constexpr double most_trees = 10'000;
+  static constexpr std::size_t most_trees = 10'000;
+  /// Of trees in a file, which may be all of a town: those farther away shade little of the model.
+  static constexpr double beside_model_m = 20;
 
   PolygonModel model_;
   std::set<std::string> placed_;

@@ -328,6 +328,19 @@ json canonical(const AddTreesEdit& add) {
           {"materials", {leaves, trunk}}};
 }
 
+// What the points say, the mesh has.
+json canonical(const AddTreePointsEdit& add) {
+  const auto& [name, path, rules, trunk_share, leaves, trunk] = add;
+  const auto& [height, crown, name_of_each, layer, default_height_m, default_crown_m] = rules;
+  return {{"trees", name},
+          {"path", path},
+          {"columns", {height, crown, name_of_each}},
+          {"layer", layer},
+          {"defaults", {maybe(default_height_m), maybe(default_crown_m)}},
+          {"trunk_share", trunk_share},
+          {"materials", {leaves, trunk}}};
+}
+
 json canonical(const EditStep& step) {
   const auto& [objects, selection, action, where] = step;
   json all{{"objects", canonical(objects)},

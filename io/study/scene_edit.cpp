@@ -108,7 +108,23 @@ AddTreesEdit read_tree(YamlMap& map) {
   return trees;
 }
 
-constexpr std::array additions{"box", "footprint", "tree", "file"};
+AddTreePointsEdit read_tree_points(YamlMap& map, const std::string& folder) {
+  AddTreePointsEdit trees;
+  map.require("file");
+  trees.path = read_path(map, "file", folder);
+  trees.rules.layer = map.text("layer", trees.rules.layer);
+  trees.rules.height = map.text("height", trees.rules.height);
+  trees.rules.crown = map.text("crown", trees.rules.crown);
+  trees.rules.name = map.text("name", trees.rules.name);
+  trees.rules.default_height_m = map.number("default_height_m", tree_heights_m);
+  trees.rules.default_crown_m = map.number("default_crown_m", tree_heights_m);
+  trees.trunk_share = map.number("trunk_share", trunk_shares, trees.trunk_share);
+  trees.leaves = map.text("leaves", "crown");
+  trees.trunk = map.text("trunk", "wood");
+  return trees;
+}
+
+constexpr std::array additions{"box", "footprint", "tree", "trees", "file"};
 constexpr std::array actions{"remove", "raise", "move_m", "turn", "replace", "add"};
 
 template <std::size_t N>
@@ -149,11 +165,16 @@ EditAction read_add(YamlMap& map, const std::string& folder) {
     trees.name = name.value_or("tree");
     action = std::move(trees);
   });
+  read("trees", [&](YamlMap& points) {
+    AddTreePointsEdit trees = read_tree_points(points, folder);
+    trees.name = name.value_or("tree");
+    action = std::move(trees);
+  });
   read("file", [&](YamlMap& file) { action = AddFileEdit{read_edit_file(file, folder)}; });
-  if (map.has("material") && (map.has("tree") || map.has("file")))
+  if (map.has("material") && (map.has("tree") || map.has("trees") || map.has("file")))
     map.problem(
         "material", "belongs to box and footprint",
-        map.has("tree") ? "a tree has leaves and trunk" : "a file has its own key material");
+        map.has("file") ? "a file has its own key material" : "a tree has leaves and trunk");
   if (map.has("name") && map.has("file"))
     map.problem("name", "belongs to what the study itself shapes", "objects of files have names");
   return action;

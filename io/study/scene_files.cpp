@@ -19,7 +19,6 @@ constexpr Range base_heights_m{-1e4, 1e5};
 constexpr Range least_heights_m{0, 1000};
 constexpr Range storeys_m{0.1, 100};
 constexpr Range building_heights_m{0.01, 2000};
-constexpr Range trunk_shares{0, 0.99};  // crowns have a height
 
 void read_position(YamlMap& map, SceneFileStudy& file) {
   file.position = read_vector(map, "position_m");

@@ -36,6 +36,7 @@ SceneStudy read_scene(YamlMap& map, const std::string& folder);
 inline constexpr Range units_m{1e-6, 1e6};
 // What several sections have.
 inline constexpr Range shares{0, 1};
+inline constexpr Range trunk_shares{0, 0.99};  ///< of a tree's height
 inline constexpr Range turns_deg{-360, 360};
 inline constexpr Range coordinates_m{-largest_coordinate_m, largest_coordinate_m};
 inline constexpr Range heights_m{-1e5, 1e5};

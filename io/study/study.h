@@ -319,8 +319,16 @@ struct AddTreesEdit {
   double every_m = 0;
   TreeShape shape{};
 };
+/// Adds the trees of a file of points.
+struct AddTreePointsEdit {
+  std::string name;  ///< before that of each
+  std::string path;
+  TreePointRules rules;
+  double trunk_share = 0.25;  ///< of a tree's height, free of leaves
+  std::string leaves, trunk;  ///< materials
+};
 using EditAction = std::variant<RemoveEdit, RaiseEdit, MoveEdit, TurnEdit, ReplaceEdit, AddFileEdit,
-                                AddPrismEdit, AddTreesEdit>;
+                                AddPrismEdit, AddTreesEdit, AddTreePointsEdit>;
 /// One step of `scene.edit`.
 struct EditStep {
   SelectionStudy objects;                   ///< not of what is added

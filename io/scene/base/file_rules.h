@@ -24,6 +24,15 @@ struct FootprintRules {
   std::string terrain;                     ///< raster of the land that feet stand on, or empty
 };
 
+/// Columns of points that are trees (io/scene/raster/tree_points.h); empty: found by their usual
+/// names.
+struct TreePointRules {
+  std::string height = {}, crown = {};  ///< of the tree above its foot; greatest width of its crown
+  std::string name = {};
+  std::string layer = {};  ///< empty: the only one of points
+  std::optional<double> default_height_m = {}, default_crown_m = {};  ///< where no column has one
+};
+
 /// How the coordinates and the levels of detail of a scene file are to be understood.
 struct SceneFileRules {
   char up = 0;        ///< axis of the file that points up: 'x', 'y', 'z'; 0 = default of the format

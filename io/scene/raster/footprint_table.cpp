@@ -27,131 +27,63 @@ const Names bases{"base_height", "base_m", "ground_height", "ground_elevation"};
 const Names lower_ends{"min_height"}, lower_levels{"building:min_level", "min_level"};
 const Names names{"id", "gml_id", "osm_id", "fid", "egid", "ref", "name"};
 
-std::vector<std::string> columns_of(OGRLayerH layer) {
-  std::vector<std::string> all;
-  OGRFeatureDefnH definition = gdal::OGR_L_GetLayerDefn(layer);
-  const int count = gdal::OGR_FD_GetFieldCount(definition);
-  all.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k)
-    all.emplace_back(gdal::OGR_Fld_GetNameRef(gdal::OGR_FD_GetFieldDefn(definition, k)));
-  return all;
-}
-
-bool is_set(OGRFeatureH feature, int column) {
-  return column >= 0 && gdal::OGR_F_IsFieldSetAndNotNull(feature, column) != 0;
-}
-
 }  // namespace
 
 FootprintTable::FootprintTable(const std::string& path, OGRLayerH layer, FootprintRules rules,
                                double unit_m, NoteCounter& notes)
-    : path_(path),
-      rules_(std::move(rules)),
-      unit_m_(unit_m),
-      notes_(notes),
-      columns_(columns_of(layer)) {
+    : path_(path), rules_(std::move(rules)), notes_(notes), columns_(path, layer, unit_m) {
   height_ = column(rules_.height, rules_.storeys.empty() ? heights : Names{}, "heights");
   storeys_ = column(rules_.storeys, storeys, "storeys");
   base_ = column(rules_.base, rules_.terrain.empty() ? bases : Names{}, "feet");
   name_ = column(rules_.name, names, "names");
-  lower_end_ = usual_column(lower_ends);
-  lower_level_ = usual_column(lower_levels);
+  lower_end_ = columns_.usual(lower_ends);
+  lower_level_ = columns_.usual(lower_levels);
   if (height_ >= 0 || storeys_ >= 0 || rules_.default_height_m) return;
   throw InputError(
-      {path_}, "no column of heights is known", columns_in_words(),
+      {path_}, "no column of heights is known", columns_.in_words(),
       "name one: footprints: {height: COLUMN} or {storeys: COLUMN} (of sunload init --height or "
       "--storeys), or give {default_height_m: …} for all");
 }
 
-std::string FootprintTable::columns_in_words() const {
-  return columns_.empty() ? "it has no columns"
-                          : fmt::format("its columns: {}", fmt::join(columns_, ", "));
-}
-
 /// -1: there is none.
-int FootprintTable::column(const std::string& wanted, UsualNames usual, const char* what) {
-  if (!wanted.empty()) {
-    const auto found = std::find(columns_.begin(), columns_.end(), wanted);
-    if (found == columns_.end())
-      throw InputError({path_}, fmt::format("has no column '{}'", wanted), columns_in_words());
-    return static_cast<int>(found - columns_.begin());
-  }
-  const int found = usual_column(usual);
+int FootprintTable::column(const std::string& wanted, LayerColumns::UsualNames usual,
+                           const char* what) {
+  if (!wanted.empty()) return columns_.named(wanted);
+  const int found = columns_.usual(usual);
   if (found >= 0)
-    notes_.say(fmt::format("{} of footprints from column {}", what,
-                           columns_[static_cast<std::size_t>(found)]));
+    notes_.say(fmt::format("{} of footprints from column {}", what, columns_.name(found)));
   return found;
-}
-
-/// The first of these that there is; -1: none.
-int FootprintTable::usual_column(UsualNames usual) const {
-  for (const auto name : usual)
-    for (std::size_t k = 0; k < columns_.size(); ++k)
-      if (lower_case(columns_[k]) == name) return static_cast<int>(k);
-  return -1;
-}
-
-/// Texts that are no number are counted.
-std::optional<WrittenLength> FootprintTable::written(OGRFeatureH feature, int column,
-                                                     Commas commas) {
-  if (!is_set(feature, column)) return {};
-  const std::string text(trimmed(gdal::OGR_F_GetFieldAsString(feature, column)));
-  if (text.empty()) return {};
-  auto found = written_length(commas == Commas::decimal ? with_decimal_point(text) : text);
-  if (!found) count_unread(text);
-  return found;
-}
-
-void FootprintTable::count_unread(const std::string& text) {
-  constexpr std::size_t enough = 20;
-  last_unread_ = text.substr(0, enough);
-  if (unread_++ == 0) first_unread_ = last_unread_;
-}
-
-std::optional<double> FootprintTable::number(OGRFeatureH feature, int column) {
-  const auto found = written(feature, column, Commas::unknown);
-  if (!found || found->unit.empty()) return found ? std::optional(found->value) : std::nullopt;
-  count_unread(fmt::format("{:g} {}", found->value, found->unit));
-  return {};
-}
-
-/// In the unit that stands behind it, as OpenStreetMap has it (`12 m`, `40'`), or in the file's.
-std::optional<double> FootprintTable::length_m(OGRFeatureH feature, int column) {
-  constexpr double international_foot_m = 0.3048;
-  const auto found = written(feature, column, Commas::decimal);
-  if (!found) return {};
-  return found->value * (found->unit.empty()   ? unit_m_
-                         : found->is_in_feet() ? international_foot_m
-                                               : 1);
 }
 
 std::string FootprintTable::name_of(OGRFeatureH feature) const {
-  if (is_set(feature, name_))
-    if (std::string name = gdal::OGR_F_GetFieldAsString(feature, name_); !name.empty()) return name;
+  if (std::string name = columns_.text(feature, name_); !name.empty()) return name;
   return fmt::format("building_{}", gdal::OGR_F_GetFID(feature) + 1);
 }
 
 std::optional<double> FootprintTable::known_height_m(OGRFeatureH feature) {
-  if (const auto height = length_m(feature, height_); height && *height > 0) return *height;
-  if (const auto count = number(feature, storeys_); count && *count > 0)
+  if (const auto height = columns_.length_m(feature, height_); height && *height > 0)
+    return *height;
+  if (const auto count = columns_.number(feature, storeys_); count && *count > 0)
     return *count * rules_.storey_m;
   if (rules_.default_height_m) ++of_default_height_;
   return rules_.default_height_m;
 }
 
 std::optional<double> FootprintTable::height_m(OGRFeatureH feature, const std::string& name) {
-  last_unread_.clear();
+  columns_.look_anew();
   const auto height = known_height_m(feature);
   if (height) return height;
-  is_any_unread_ |= !last_unread_.empty();
-  without_height_.add(last_unread_.empty() ? name : fmt::format("{}: '{}'", name, last_unread_));
+  const std::string& unread = columns_.last_unread();
+  is_any_unread_ |= !unread.empty();
+  without_height_.add(unread.empty() ? name : fmt::format("{}: '{}'", name, unread));
   return {};
 }
 
 double FootprintTable::lower_end_m(OGRFeatureH feature, double height_m, const std::string& name) {
-  auto begins_m = length_m(feature, lower_end_);
+  auto begins_m = columns_.length_m(feature, lower_end_);
   if (!begins_m)
-    if (const auto levels = number(feature, lower_level_)) begins_m = *levels * rules_.storey_m;
+    if (const auto levels = columns_.number(feature, lower_level_))
+      begins_m = *levels * rules_.storey_m;
   if (!begins_m || !(*begins_m > 0)) return 0;
   if (*begins_m < height_m) {
     ++raised_;
@@ -162,7 +94,7 @@ double FootprintTable::lower_end_m(OGRFeatureH feature, double height_m, const s
 }
 
 std::optional<double> FootprintTable::foot_m(OGRFeatureH feature) {
-  return length_m(feature, base_);
+  return columns_.length_m(feature, base_);
 }
 
 void FootprintTable::refuse_without_height(std::size_t others) const {
@@ -180,11 +112,11 @@ void FootprintTable::note(std::size_t all) const {
   if (of_default_height_ > 0)
     notes_.say(fmt::format("{} of {} footprints have no height above 0 and are {:g} m high",
                            of_default_height_, all, *rules_.default_height_m));
-  if (unread_ > 0)
+  if (columns_.unread() > 0)
     notes_.say(
         fmt::format("{} values of heights, storeys or feet are no numbers, such as '{}': "
                     "they count as not written",
-                    unread_, first_unread_));
+                    columns_.unread(), columns_.first_unread()));
   if (raised_ > 0)
     notes_.say(
         fmt::format("{} of {} footprints begin above the ground, by min_height or "

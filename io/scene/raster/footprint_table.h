@@ -4,16 +4,13 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "io/base/file_text.h"
 #include "io/base/first_of_many.h"
 #include "io/base/gdal.h"
 #include "io/scene/base/file_rules.h"
-#include "io/scene/raster/written_length.h"
+#include "io/scene/raster/layer_columns.h"
 
 namespace sunload {
 
@@ -43,30 +40,17 @@ class FootprintTable {
   std::string warning(std::size_t all) const;
 
  private:
-  /// Of columns, the more telling first; lower case.
-  using UsualNames = std::span<const std::string_view>;
-  /// Storeys with a comma may be a list.
-  enum class Commas { decimal, unknown };
-
-  int column(const std::string& wanted, UsualNames usual, const char* what);
-  int usual_column(UsualNames usual) const;
-  std::string columns_in_words() const;
-  std::optional<WrittenLength> written(OGRFeatureH feature, int column, Commas commas);
-  std::optional<double> number(OGRFeatureH feature, int column);
-  std::optional<double> length_m(OGRFeatureH feature, int column);
+  int column(const std::string& wanted, LayerColumns::UsualNames usual, const char* what);
   std::optional<double> known_height_m(OGRFeatureH feature);
-  void count_unread(const std::string& text);
 
   std::string path_;
   FootprintRules rules_;
-  double unit_m_;
   NoteCounter& notes_;
-  std::vector<std::string> columns_;
+  LayerColumns columns_;
   int height_ = -1, storeys_ = -1, base_ = -1, name_ = -1, lower_end_ = -1, lower_level_ = -1;
   FirstOfMany without_height_, upside_down_;
   bool is_any_unread_ = false;  ///< of those without height
-  std::size_t of_default_height_ = 0, raised_ = 0, unread_ = 0;
-  std::string first_unread_, last_unread_;  ///< texts that are no numbers
+  std::size_t of_default_height_ = 0, raised_ = 0;
 };
 
 }  // namespace sunload

@@ -119,7 +119,11 @@ class FootprintReader {
     std::vector<PlanArea> areas;
     double lowest_z = std::numeric_limits<double>::infinity();
     add_areas(geometry, areas, lowest_z);
-    if (areas.empty()) return notes_.count("features that are no polygons are left out");
+    if (areas.empty())
+      return notes_.count(type == wkbPoint || type == wkbMultiPoint
+                              ? "points among the footprints are left out (of trees: scene.edit "
+                                "adds them, add: {trees: {file: …}})"
+                              : "features that are no polygons are left out");
     const std::string name = unique_(table_->name_of(feature));
     const auto height = table_->height_m(feature, name);
     if (!height) return;

@@ -3,9 +3,11 @@
 /// Steps of scene.edit: what they choose, what becomes of it, and what is said of it.
 #include "io/plan/scene_edit.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "geo/edit/objects.h"
 #include "io/plan/scene_build.h"
@@ -182,6 +184,46 @@ TEST_F(SceneEdit, TreesLeaveTheGroundAsItIs) {
     if (built.scene.mesh.triangle_surface[t] == Surface::ground) {
       EXPECT_EQ(built.scene.mesh.corner(t, 0).z + built.scene.mesh.origin.z, 0);
     }
+}
+
+/// Points in the metres of the model, as a file of its map has them.
+std::string points(const std::vector<std::array<double, 2>>& places) {
+  std::string text = R"({"type": "FeatureCollection", "features": [)";
+  for (std::size_t i = 0; i < places.size(); ++i)
+    text += fmt::format(
+        R"({}{{"type": "Feature", "properties": {{"height": {}, "crown_m": 4, "id": "t{}"}}, )"
+        R"("geometry": {{"type": "Point", "coordinates": [{}, {}]}}}})",
+        i == 0 ? "" : ", ", 8 + i, i, places[i][0], places[i][1]);
+  return text + "]}";
+}
+
+TEST_F(SceneEdit, AddsTheTreesOfAnInventory) {
+  folder_.write("trees.geojson", points({{1015, 505}, {1045, 520}, {1400, 505}}));
+  Study with = study("{object: shed, move_m: [0, 0, 2]}, {add: {trees: {file: trees.geojson}}}");
+  with.site.crs = "EPSG:32633";
+  with.scene.files.front().position = Vec3{1000, 500, 0};
+  const EditedModel all = edited(read_models(with), with);
+  const auto& m = all.model;
+  EXPECT_EQ(m.object_names, (Names{"house_1", "house_2", "shed", "tree_t0", "tree_t1"}));
+  EXPECT_EQ(all.placed.count("tree_t1"), 1u);
+  EXPECT_EQ(box_of(m, "tree_t0").low.z, 0);
+  EXPECT_EQ(box_of(m, "tree_t0").high.z, 8);
+  EXPECT_EQ(box_of(m, "tree_t1").low.z, 2);  // as the shed, which is nearest
+  EXPECT_EQ(box_of(m, "tree_t1").high.z, 11);
+  EXPECT_NEAR(extents_of(m)[3].middle().x, 1015, 1e-9);
+  const auto said = [&](const std::string& what) {
+    return std::any_of(m.notes.begin(), m.notes.end(),
+                       [&](const auto& note) { return note.find(what) != note.npos; });
+  };
+  EXPECT_TRUE(said("scene.edit[2]: 1 trees more than 20 m beside the model left out"));
+  EXPECT_TRUE(said("scene.edit[2]: adds 2 objects: tree_t0, tree_t1"));
+
+  folder_.write("trees.geojson", points({{91015, 505}}));
+  const std::string told = refusal_of([&] { edited(read_models(with), with); });
+  EXPECT_NE(told.find("m away from the model"), told.npos) << told;
+  folder_.write("trees.geojson", points({{1300, 505}}));
+  const std::string beside = refusal_of([&] { edited(read_models(with), with); });
+  EXPECT_NE(beside.find("none of 1 trees stands on the model"), beside.npos) << beside;
 }
 
 TEST_F(SceneEdit, PutsThingsOntoATerrainOfARaster) {

@@ -182,7 +182,7 @@ TEST(StudyEdit, RefusesWhatIsNoStep) {
   expect_problem(steps("{object: a, add: {box: {position_m: [0, 0], size_m: [1, 1, 1]}}}"),
                  "stands beside a choice of objects");
   expect_problem(steps("{add: {box: {position_m: [0, 0], size_m: [1, 0, 1]}}}"), "not above 0");
-  expect_problem(steps("{add: {}}"), "add does nothing (one of box, footprint, tree, file)");
+  expect_problem(steps("{add: {}}"), "add does nothing (one of box, footprint, tree, trees, file)");
   expect_problem(steps("{add: {tree: {position_m: [0, 0], height_m: 3, crown_m: 2, trunk_m: 3}}}"),
                  "is not below height_m");
   expect_problem(steps("{add: {tree: {position_m: [0, 0], height_m: 3, crown_m: 2, every_m: 3}}}"),
@@ -862,6 +862,8 @@ json step_around(const std::string& path) {
     step = {{"add", {{"box", {{"position_m", {0, 0}}, {"size_m", {1, 1, 1}}}}}}};
   } else if (is_in("add.footprint")) {
     step = {{"add", {{"footprint", {{"polygon", corners}, {"height_m", 9}}}}}};
+  } else if (is_in("add.trees")) {
+    step = {{"add", {{"trees", {{"file", file}}}}}};
   } else if (is_in("add.tree")) {
     step = {{"add", {{"tree", {{"position_m", {0, 0}}, {"height_m", 160}, {"crown_m", 1}}}}}};
     step["add"]["tree"]["height_m"] = 150;
@@ -1235,7 +1237,7 @@ json study_to_see(const std::string& path) {
   if (starts("scene.files")) study["scene"]["files"][0]["position"] = "49d44'51\"N 13d22'39\"E";
   if (path == "scene.files[].position_m") study["scene"]["files"][0].erase("position");
   for (const char* of_rasters : {"canopy", "least_height_m", "trunk_share"})
-    if (path.ends_with(of_rasters))
+    if (path == std::string("scene.files[].") + of_rasters)
       study["scene"]["files"][0]["terrain"] = test::source_folder() + "/LICENSE";
   auto& material = study["scene"]["materials"]["m"];
   for (const char* of_an_index :
@@ -1289,6 +1291,13 @@ std::vector<json> values_of(const std::string& path, const json& schema) {
       {"scene.files[].footprints.base", {"a"}},
       {"scene.files[].footprints.name", {"a"}},
       {"scene.files[].footprints.layer", {"a"}},
+      {"scene.edit[].add.trees.file", {test::source_folder() + "/README.md"}},
+      {"scene.edit[].add.trees.layer", {"a"}},
+      {"scene.edit[].add.trees.height", {"a"}},
+      {"scene.edit[].add.trees.crown", {"a"}},
+      {"scene.edit[].add.trees.name", {"a"}},
+      {"scene.edit[].add.trees.leaves", {"a"}},
+      {"scene.edit[].add.trees.trunk", {"a"}},
       {"scene.edit[].type", {"a"}},
       {"scene.edit[].polygon", std::vector<json>(1, corners)},
       {"scene.edit[].replace.file", {file, test::source_folder() + "/README.md"}},
