@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <span>
 
 #include "geo/base/together.h"
+#include "geo/base/units.h"
 #include "geo/mesh/edge_table.h"
 #include "geo/mesh/orient.h"
 #include "geo/mesh/slope.h"
@@ -49,20 +49,69 @@ class OddBodies {
   bool is_any_ = false;
 };
 
+/// A use of an edge, where its triangle lies about it, and of what sheet it is: triangles that hang
+/// together by edges of two uses.
+struct AngledUse {
+  double angle = 0;
+  EdgeUse use;
+  std::size_t sheet = 0;
+};
+
+/// Of uses that lie on each other, those of a sheet that lies before them come first and those of
+/// one that lies behind them last, so that nothing is seen through solids which touch; where that
+/// tells nothing, fronts look at each other. `order` is by angle.
+void part_those_that_touch(const Mesh& mesh, std::vector<AngledUse>& order) {
+  const std::size_t count = order.size();
+  const auto begins = [&](std::size_t i) {
+    const double before = i > 0 ? order[i - 1].angle : order[count - 1].angle - 2 * pi;
+    return order[i].angle - before > same_angle;
+  };
+  std::size_t first = 0;
+  while (first < count && !begins(first)) ++first;
+  if (first == count) return;
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i < count; ++i)
+    if (begins((first + i) % count)) starts.push_back(i);
+  if (starts.size() == count) return;
+  starts.push_back(count);
+  std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(first), order.end());
+  for (std::size_t g = 0; g + 1 < starts.size(); ++g) {
+    const std::size_t before = order[(starts[g] + count - 1) % count].sheet,
+                      behind = order[starts[g + 1] % count].sheet;
+    const auto rank = [&](const AngledUse& one) {
+      const int by_sheet = one.sheet == before ? 0 : one.sheet == behind ? 2 : 1;
+      return 2 * by_sheet + (walks_up(mesh, one.use) ? 0 : 1);
+    };
+    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(starts[g]),
+                     order.begin() + static_cast<std::ptrdiff_t>(starts[g + 1]),
+                     [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  }
+}
+
 /// Both sides of all triangles, by the part of space that they see.
 class BothSides {
  public:
-  explicit BothSides(const Mesh& mesh) : mesh_(mesh), parts_(2 * mesh.triangle_count()) {}
+  BothSides(const Mesh& mesh, const std::vector<EdgeUse>& uses)
+      : mesh_(mesh), sheets_(mesh.triangle_count()), parts_(2 * mesh.triangle_count()) {
+    for_each_edge(uses, [&](std::span<const EdgeUse> at_edge) {
+      if (at_edge.size() == 2 && !are_feet_that_touch(mesh, at_edge))
+        sheets_.join(at_edge[0].triangle(), at_edge[1].triangle());
+    });
+  }
 
   /// About an edge each side sees what the next one sees that looks back at it.
   void join_about(std::span<const EdgeUse> uses) {
     if (uses.size() == 1 && is_foot_of_wall(mesh_, uses[0])) return;
+    if (are_feet_that_touch(mesh_, uses)) return;
     const std::vector<double> angles = angles_about(mesh_, uses);
-    std::vector<std::size_t> order(uses.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return angles[i]; });
+    std::vector<AngledUse> order;
+    order.reserve(uses.size());
+    for (std::size_t i = 0; i < uses.size(); ++i)
+      order.push_back({angles[i], uses[i], sheets_.of(uses[i].triangle())});
+    std::ranges::stable_sort(order, {}, &AngledUse::angle);
+    if (order.size() > 2) part_those_that_touch(mesh_, order);
     for (std::size_t i = 0; i < order.size(); ++i)
-      parts_.join(onward(uses[order[i]]), backward(uses[order[(i + 1) % order.size()]]));
+      parts_.join(onward(order[i].use), backward(order[(i + 1) % order.size()].use));
   }
 
   /// Per side, whether its part of space is closed around, or at its foot by what it stands on.
@@ -93,7 +142,7 @@ class BothSides {
   std::size_t backward(const EdgeUse& use) const { return onward(use) ^ 1; }
 
   const Mesh& mesh_;
-  Together parts_;
+  Together sheets_, parts_;
 };
 
 }  // namespace
@@ -104,7 +153,7 @@ ApartFaces apart_faces(const Mesh& mesh) {
   const auto uses = edge_uses(mesh, std::vector<std::uint8_t>(count, 1));
   OddBodies bodies(mesh, uses);
   if (!bodies.any()) return apart;
-  BothSides sides(mesh);
+  BothSides sides(mesh, uses);
   for_each_edge(uses, [&](std::span<const EdgeUse> at_edge) {
     if (bodies.foot(at_edge[0].triangle())) sides.join_about(at_edge);
   });

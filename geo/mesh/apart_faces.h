@@ -22,8 +22,9 @@ struct ApartFaces {
 };
 
 /// Asked of triangles that hang together where some edge has an odd number of uses, three or more:
-/// there solid and void cannot alternate. Windings are not asked. What lies in the same place may
-/// be told so, too.
+/// there solid and void cannot alternate. Windings are not asked, but where triangles lie on each
+/// other at an edge and the sheets that they are of do not tell which comes first. What lies in the
+/// same place may be told so, too.
 ///
 /// Sides of triangles that follow each other about an edge see the same part of space; all sides
 /// that see one part enclose it, if the volume on their side is finite. Walls are taken to stand on

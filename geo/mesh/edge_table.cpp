@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "geo/base/units.h"
 #include "geo/mesh/slope.h"
 
 namespace sunload {
@@ -40,6 +41,13 @@ bool is_foot_of_wall(const Mesh& mesh, const EdgeUse& use) {
   const double low = mesh.vertices[static_cast<std::size_t>(use.low)].z,
                high = mesh.vertices[static_cast<std::size_t>(use.high)].z;
   return slope_of(mesh, t) == Slope::upright && apex.z > std::max(low, high);
+}
+
+bool are_feet_that_touch(const Mesh& mesh, std::span<const EdgeUse> uses) {
+  if (uses.size() != 2 || !is_foot_of_wall(mesh, uses[0]) || !is_foot_of_wall(mesh, uses[1]))
+    return false;
+  const std::vector<double> angles = angles_about(mesh, uses);
+  return std::abs(std::remainder(angles[0] - angles[1], 2 * pi)) < same_angle;
 }
 
 std::vector<double> angles_about(const Mesh& mesh, std::span<const EdgeUse> uses) {

@@ -46,8 +46,15 @@ inline Vec3 apex_of(const Mesh& mesh, const EdgeUse& use) {
   return mesh.corner(use.triangle(), static_cast<int>((use.corner() + 2) % 3));
 }
 
+/// Triangles whose angles about an edge differ by less lie on each other: a party wall of two
+/// houses, a roof below a penthouse.
+inline constexpr double same_angle = 1e-3;
+
 /// Whether the edge is the lower one of an upright triangle that stands on it.
 bool is_foot_of_wall(const Mesh& mesh, const EdgeUse& use);
+/// Whether these are the feet of two walls that lie on each other: party walls of houses without
+/// floors, of which one is longer or higher. The two do not go on from each other there.
+bool are_feet_that_touch(const Mesh& mesh, std::span<const EdgeUse> uses);
 
 /// True where the triangle walks the edge from its lower to its higher vertex.
 inline bool walks_up(const Mesh& mesh, const EdgeUse& use) {

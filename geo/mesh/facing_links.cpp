@@ -11,10 +11,6 @@ namespace sunload {
 
 namespace {
 
-/// Triangles whose angles about an edge differ by less lie on each other: a party wall of two
-/// houses, a roof below a penthouse.
-constexpr double same_angle = 1e-3;
-
 /// A use of an edge and where its triangle lies about it.
 struct AngledUse {
   double angle = 0;
@@ -111,6 +107,10 @@ Links link_edges(const Mesh& mesh, const std::vector<std::uint8_t>& included) {
     if (uses.size() == 1) ++links.open_edges;
     if (uses.size() > 2) ++links.nonmanifold_edges;
     if (uses.size() != 2) return;
+    if (are_feet_that_touch(mesh, uses)) {
+      links.open_edges += 2;
+      return;
+    }
     links.next[uses[0].half_edge] = uses[1].half_edge;
     links.next[uses[1].half_edge] = uses[0].half_edge;
   });

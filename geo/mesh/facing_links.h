@@ -18,7 +18,7 @@ inline constexpr std::uint32_t no_link = 0xffffffff;
 /// each other by angle must agree, since solid and void alternate, and where some lie on each
 /// other, as solids that touch do, their order is the one in which sheets go on.
 struct Links {
-  std::vector<std::uint32_t> next;  ///< in a ring around the edge; no_link at odd edges
+  std::vector<std::uint32_t> next;  ///< in a ring around the edge; no_link: odd edges, such feet
   std::vector<std::uint8_t> up;
   std::size_t open_edges = 0, nonmanifold_edges = 0;
 };

@@ -20,17 +20,13 @@ OpenBelow::OpenBelow(const Mesh& mesh, const Bodies& bodies)
       is_house_[b] = 0;
 }
 
-/// It is the only one of its body, and a foot, or there are two, one of which walks the edge up and
-/// the other down. (Eaves go on beyond the house, and are a body of their own.)
+/// It is the only one of its body, and a foot, or as many walk the edge up as down: two, or four
+/// where houses of one body touch. (Eaves go on beyond the house, and are a body of their own.)
 bool OpenBelow::is_foot_or_goes_on(const EdgeUse& use, std::span<const EdgeUse> uses) const {
-  const EdgeUse* partner = nullptr;
-  for (const EdgeUse& other : uses) {
-    if (other.half_edge == use.half_edge || body(other.triangle()) != body(use.triangle()))
-      continue;
-    if (partner) return false;
-    partner = &other;
-  }
-  return partner ? walks_up(mesh_, use) != walks_up(mesh_, *partner) : is_foot_of_wall(mesh_, use);
+  std::size_t up = 0, down = 0;
+  for (const EdgeUse& one : uses)
+    if (body(one.triangle()) == body(use.triangle())) ++(walks_up(mesh_, one) ? up : down);
+  return up + down == 1 ? is_foot_of_wall(mesh_, use) : up == down;
 }
 
 /// As if each body were closed at its lowest point, times 6.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geo/base/units.h"
@@ -97,6 +98,37 @@ TEST(ApartFaces, AreThePartOfAPartyWallThatBothHousesHave) {
   EXPECT_EQ(p.report.closed_bodies, 1u);
   EXPECT_NEAR(p.report.volume_m3, 8 * 6 * 9 + 6 * 6 * 5, house_rounding_m2);
   EXPECT_NEAR(areas_of(house_of(faces), true, rules).covered, 6 * 5, house_rounding_m2);
+}
+
+// A longer house stands against the two, with a corner of its walls at their party wall: what lies
+// on each other there is parted by the houses that it is of, in whatever order the file has them.
+TEST(ApartFaces, AreAPartyWallAtTheCornerOfALongerHouse) {
+  std::array<Faces, 3> houses{ModelBuilder::box_faces({4, 1, 0}, {6, 4, 3}),
+                              ModelBuilder::box_faces({6, 1, 0}, {8, 3, 3}),
+                              ModelBuilder::box_faces({6, 0, 0}, {8, 1, 3})};
+  std::array<std::size_t, 3> order{0, 1, 2};
+  do {
+    Faces faces;
+    for (const std::size_t k : order) {
+      faces.insert(faces.end(), houses[k].begin(), houses[k].end());
+    }
+    for (const double turn_deg : {0.0, 90.0, 133.0, 180.0, 270.0}) {
+      const double c = std::cos(radians(turn_deg)), s = std::sin(radians(turn_deg));
+      auto model = house_of(faces);
+      model.moved([&](Vec3 p) { return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z}; });
+      const PreparedMesh p = model.prepared();
+      const auto told = testing::Message() << order[0] << order[1] << order[2] << " " << turn_deg;
+      EXPECT_EQ(std::ranges::count(apart_faces(p.mesh).inner, 1), 2) << told;
+      EXPECT_EQ(p.report.triangles_flipped, 0u) << told;
+      EXPECT_EQ(p.report.closed_bodies, 2u) << told;
+      EXPECT_EQ(p.report.open_sheets, 0u) << told;
+      EXPECT_NEAR(p.report.volume_m3, 36, house_rounding_m2) << told;
+      // Walls of 16 m about all of it; of party walls 6 m2 twice (they touch) and 6 m2 once.
+      const Areas areas = areas_of(model);
+      EXPECT_NEAR(areas.open, 16 * 3 + 2 * 12, house_rounding_m2) << told;
+      EXPECT_NEAR(areas.covered, 3 * 6, house_rounding_m2) << told;
+    }
+  } while (std::ranges::next_permutation(order).found);
 }
 
 TEST(ApartFaces, AreNoneWhereLightGetsIn) {

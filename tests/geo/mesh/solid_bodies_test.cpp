@@ -150,5 +150,32 @@ TEST(SolidBodies, RandomHousesWithoutFloorsShowWhatThoseWithFloorsShow) {
   }
 }
 
+// Walls of two houses that lie on each other stand on one edge: the houses are no less open there
+// than elsewhere. One mesh, without floors; the second house is shorter, or has as much wall as the
+// gable of the first.
+TEST(SolidBodies, AreTwoHousesOfOneMeshWhosePartyWallsShareTheirFeet) {
+  for (const On on : both) {
+    auto shorter = begun(on);
+    shorter.object("row").walls_and_roof({8, 8, 0}, {12, 14, 2});
+    shorter.walls_and_roof({6, 8, 0}, {8, 10, 2});
+    const Open open = open_of(shorter, on);
+    EXPECT_NEAR(open.walls, (4 + 6 + 6 + 2 + 4 + 2) * 2, rounding_m2);
+    EXPECT_NEAR(open.roofs, 4 * 6 + 2 * 2, rounding_m2);
+    EXPECT_NEAR(open.others, 0, rounding_m2);
+
+    auto gable = begun(on);
+    gable.object("row").ring({{6, 4, 0}, {10, 4, 0}, {10, 4, 6}, {6, 4, 6}});
+    gable.ring({{10, 6, 0}, {6, 6, 0}, {6, 6, 6}, {10, 6, 6}});
+    gable.ring({{10, 4, 0}, {10, 6, 0}, {10, 6, 6}, {10, 5, 8}, {10, 4, 6}});
+    gable.ring({{6, 6, 0}, {6, 4, 0}, {6, 4, 6}, {6, 5, 8}, {6, 6, 6}});
+    gable.ring({{6, 4, 6}, {10, 4, 6}, {10, 5, 8}, {6, 5, 8}});
+    gable.ring({{10, 6, 6}, {6, 6, 6}, {6, 5, 8}, {10, 5, 8}});
+    gable.walls_and_roof({10, 4, 0}, {12, 6, 6});
+    const Open of_gable = open_of(gable, on);
+    EXPECT_NEAR(of_gable.walls, 2 * 4 * 6 + 2 * 6 + 2 * 2 + (2 + 2 + 2) * 6, rounding_m2);
+    EXPECT_NEAR(of_gable.roofs, 2 * 4 * std::sqrt(5.0) + 2 * 2, rounding_m2);
+  }
+}
+
 }  // namespace
 }  // namespace sunload::test
