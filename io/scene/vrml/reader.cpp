@@ -290,13 +290,24 @@ class VrmlWalk {
   void add_inventor(SoNode* node, const State& state, int place) {
     auto shape = faces_.of_inventor(node, state.hints);
     if (!shape || shape->faces.empty()) return;
+    if (state.binding == SoMaterialBinding::PER_FACE_INDEXED) take_material_indices(*node, *shape);
     model_.add(*shape, state.file_from_here, place, inventor_materials(*shape, state));
+  }
+
+  /// Of faces that say themselves which of the materials is theirs.
+  static void take_material_indices(SoNode& node, ShapeFaces& shape) {
+    auto* set = as<SoIndexedShape>(&node);
+    if (set == nullptr) return;
+    const SoMFInt32& indices = set->materialIndex;
+    for (auto& material : shape.face_material)
+      if (material < indices.getNum() && indices[material] >= 0) material = indices[material];
   }
 
   std::vector<MaterialId> inventor_materials(ShapeFaces& shape, const State& state) {
     auto* node = state.material;
     if (node == nullptr) return {MaterialId::none()};
-    const bool per_face = state.binding == SoMaterialBinding::PER_FACE &&
+    const bool per_face = (state.binding == SoMaterialBinding::PER_FACE ||
+                           state.binding == SoMaterialBinding::PER_FACE_INDEXED) &&
                           shape.face_material.size() == shape.faces.size();
     if (!per_face) {
       if (state.binding != SoMaterialBinding::OVERALL && node->diffuseColor.getNum() > 1)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <libdeflate.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -294,6 +295,21 @@ TEST(SceneVrml, Vrml1) {
   EXPECT_NEAR(*model.materials[model.facts[1].material.index()].diffuse, 0.4, 1e-7);
   EXPECT_FALSE(model.facts[8].material.exists());  // the Separator ended before it
   EXPECT_NEAR(bounding_box(model.vertices).high.x, 6, 1e-12);
+}
+
+TEST(SceneVrml, FacesOfVrml1NameTheirMaterials) {
+  const auto model = read_text(
+      "one.wrl",
+      "#VRML V1.0 ascii\nSeparator {\n Material { diffuseColor [0.2 0.2 0.2, 0.4 0.4 0.4, 0.6 0.6 "
+      "0.6] }\n MaterialBinding { value PER_FACE_INDEXED }\n Coordinate3 { point [0 0 0, 1 0 0, 0 "
+      "1 "
+      "0, 0 0 1] }\n IndexedFaceSet { coordIndex [0 1 2 -1 0 1 3 -1 0 1 -1 1 2 3 -1] materialIndex "
+      "[2 0 0 1] }\n}\n",
+      {'z', 1, "highest"});
+  ASSERT_EQ(model.polygon_count(), 3u);
+  const std::array<double, 3> wanted{0.6, 0.2, 0.4};  // the face of two corners has an index, too
+  for (std::size_t p = 0; p < wanted.size(); ++p)
+    EXPECT_NEAR(*model.materials[model.facts[p].material.index()].diffuse, wanted[p], 1e-7) << p;
 }
 
 const std::string six_points =
