@@ -18,6 +18,7 @@ inline constexpr double degrees_per_radian = 180 / pi;
 inline constexpr double seconds_per_minute = 60;
 inline constexpr double seconds_per_hour = 3600;
 inline constexpr double seconds_per_day = 86400;
+inline constexpr double degrees_of_sun_per_hour = 15;  ///< about the axis: 360 in a mean solar day
 inline constexpr double joules_per_kwh = 3.6e6;
 
 constexpr double radians(double angle_deg) { return angle_deg * radians_per_degree; }

@@ -77,8 +77,6 @@ LightRows rows_of(const std::vector<DatedWeather>& weather, Light of) {
   return rows;
 }
 
-constexpr double degrees_per_hour = 15;
-
 /// Clear light of the sun's height: Haurwitz (1945); the beam of Meinel & Meinel (1976), Applied
 /// solar energy, with a tenth of the former as light of the sky.
 double clear_light(double elevation_deg, Light light) {
@@ -228,7 +226,7 @@ std::vector<DayShift> shifts_of(const LightRows& rows, Light light, const SunEph
                                 double longitude_deg) {
   std::vector<DayShift> shifts;
   if (rows.empty()) return shifts;
-  const double to_solar_s = longitude_deg / degrees_per_hour * seconds_per_hour;
+  const double to_solar_s = longitude_deg / degrees_of_sun_per_hour * seconds_per_hour;
   const double coarse_s = coarse_shift_s(rows, to_solar_s);
   const double first_day =
       std::floor((rows.front().begin - coarse_s + to_solar_s) / seconds_per_day);

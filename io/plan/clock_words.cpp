@@ -63,17 +63,11 @@ std::string zone_words(double shift_s, double offset_s, const WeatherFile& file)
   return fmt::format("UTC{} in place of UTC{} in {}", zone, offset_text(offset_s), where);
 }
 
-Stamp stamp_of_format(const std::string& format) {
-  return format == "WEA" ? Stamp::middle : Stamp::end;
-}
-
-std::string advice(double shift_s, const WeatherFile& file, double offset_s,
-                   std::optional<Stamp> stamp) {
+std::string advice(double shift_s, const WeatherFile& file, double offset_s) {
   const WeatherRecord& first = file.records.front();
-  const std::string other_stamp = file.format == "EPW"
-                                      ? std::string()
-                                      : stamp_words(shift_s, first.end_s - first.begin_s,
-                                                    stamp.value_or(stamp_of_format(file.format)));
+  const std::string other_stamp =
+      file.format == "EPW" ? std::string()
+                           : stamp_words(shift_s, first.end_s - first.begin_s, file.stamp);
   const std::string zone = zone_words(shift_s, offset_s, file);
   if (other_stamp.empty() && zone.empty())
     return "are stamp, time zone and longitude of the weather right?";
@@ -94,18 +88,16 @@ std::string summer_words(const WeatherClock& clock, const WeatherFile& file) {
 
 }  // namespace
 
-WeatherSayings clock_words(const WeatherClock& clock, const WeatherFile& file, double offset_s,
-                           std::optional<Stamp> stamp) {
+WeatherSayings clock_words(const WeatherClock& clock, const WeatherFile& file, double offset_s) {
   WeatherSayings said;
   const bool has_summer_time = clock.has_summer_time();
   if (has_summer_time) said.warnings.push_back(summer_words(clock, file));
   const ClockShift& shift = has_summer_time ? clock.winter : clock.all;
   const std::string text = shift_words(shift);
   if (shift.exceeds(file.format == "CSV" ? telling_of_csv_s : telling_s))
-    said.warnings.push_back(
-        fmt::format("weather: {}{}: shadows, and east and west, are wrong by as much; {}",
-                    has_summer_time ? "in winter " : "", text,
-                    advice(shift.whole.median, file, offset_s, stamp)));
+    said.warnings.push_back(fmt::format(
+        "weather: {}{}: shadows, and east and west, are wrong by as much; {}",
+        has_summer_time ? "in winter " : "", text, advice(shift.whole.median, file, offset_s)));
   else if (!has_summer_time && shift.exceeds(worth_a_note_s))
     said.notes.push_back(text);
   return said;

@@ -139,10 +139,11 @@ std::string clock_warning(const std::string& timezone, const Site& site, UnixTim
   constexpr double near_pole_deg = 89;  // whose longitude tells no time
   if (std::abs(site.latitude_deg) > near_pole_deg) return {};
   // The widest true gap is 3.1 h: China keeps the time of Beijing as far as 73.5 degrees east.
-  constexpr double widest_gap_h = 3.5, hours_per_day = 24, deg_per_hour = 15;
+  constexpr double widest_gap_h = 3.5, hours_per_day = 24;
   const TimeZone zone(timezone);
   const double clock_h = zone.standard_offset_s(zone.civil_from_utc(when).year) / seconds_per_hour;
-  const double gap_h = std::remainder(clock_h - site.longitude_deg / deg_per_hour, hours_per_day);
+  const double gap_h =
+      std::remainder(clock_h - site.longitude_deg / degrees_of_sun_per_hour, hours_per_day);
   if (std::abs(gap_h) <= widest_gap_h) return {};
   return fmt::format(
       "clocks of {} are {:.1f} h {} the sun at longitude {:.2f}; are site.timezone and longitude "

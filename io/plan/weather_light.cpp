@@ -424,7 +424,7 @@ void StudyWeather::say_clock(const SunPath& path) {
                          study_.sun.refraction, study_.sun.ut1_utc,
                          standard_air(place.elevation_m));
   say(clock_words(clock_of(about, sun, place.latitude_deg, place.longitude_deg), file_,
-                  offset_s(first_year()), study_.light.stamp));
+                  offset_s(first_year())));
 }
 
 void StudyWeather::say_doubts(const std::vector<DatedWeather>& used, const SunPath& path) {

@@ -229,7 +229,8 @@ WeatherFile read_weather_csv(const WeatherText& text, std::optional<Stamp> stamp
         value("dni"), value("dhi"), value("ghi"),
         albedo == head.columns.end() ? std::nullopt : ground_albedo(fields[albedo->second])};
   }
-  file.records = records_of(text, rows, *stamp);
+  file.stamp = *stamp;
+  file.records = records_of(text, rows, file.stamp);
   if (stamps.are_utc()) file.offset_s = 0;
   return file;
 }

@@ -39,7 +39,8 @@ struct WeatherFile {
   std::optional<double> offset_s;
   std::vector<WeatherRecord> records;  ///< at least one, in order
   std::vector<std::string> notes;
-  BelowZero offsets{};  ///< values from `lowest_offset_w_m2` on, which are 0 in the records
+  Stamp stamp = Stamp::end;  ///< as it was taken: the format's own, or what the study says
+  BelowZero offsets{};       ///< values from `lowest_offset_w_m2` on, which are 0 in the records
   BelowZero too_low{};  ///< lower ones that are no codes of missing values; absent in the records
 };
 

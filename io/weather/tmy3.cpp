@@ -108,7 +108,8 @@ WeatherFile read_tmy3(const WeatherText& text, std::optional<Stamp> stamp) {
           columns.albedo ? ground_albedo(fields[*columns.albedo]) : std::nullopt},
          static_cast<int>(line)});
   }
-  file.records = records_of(text, rows, stamp.value_or(Stamp::end));
+  file.stamp = stamp.value_or(Stamp::end);
+  file.records = records_of(text, rows, file.stamp);
   forget_years_that_do_not_follow(file.records);
   return file;
 }

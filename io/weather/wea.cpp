@@ -14,7 +14,6 @@ namespace sunload {
 
 namespace {
 
-constexpr double degrees_per_hour = 15;
 /// Hours have three decimals; nearer than this to a whole minute they mean it.
 constexpr double hour_rounding_s = 2;
 enum class Units { direct_normal = 1, direct_horizontal = 2, illuminance = 3 };
@@ -74,7 +73,7 @@ WeatherFile read_wea(const WeatherText& text, std::optional<Stamp> stamp) {
   place.latitude_deg = header.number("latitude", -90, 90);
   place.longitude_deg = -header.number("longitude", -180, 180);
   const double offset_s =
-      -header.number("time_zone", -210, 180) / degrees_per_hour * seconds_per_hour;
+      -header.number("time_zone", -210, 180) / degrees_of_sun_per_hour * seconds_per_hour;
   place.elevation_m = header.number("site_elevation", -1000, 9999);
   const auto units =
       static_cast<Units>(static_cast<int>(header.number("weather_data_file_units", 1, 3)));
@@ -104,7 +103,8 @@ WeatherFile read_wea(const WeatherText& text, std::optional<Stamp> stamp) {
     }
     rows.push_back(row);
   }
-  file.records = records_of(text, rows, stamp.value_or(Stamp::middle));
+  file.stamp = stamp.value_or(Stamp::middle);
+  file.records = records_of(text, rows, file.stamp);
   return file;
 }
 

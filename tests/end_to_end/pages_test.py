@@ -65,6 +65,15 @@ def plan(city):
                        "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25833"}}})
 
 
+def trees(city):
+    """Points with heights and crowns, one of which has none, on the map of the town."""
+    low = city["transform"]["translate"]
+    points = [{"type": "Feature", "properties": {"HOEHE": 9 + n, "KRONE": 5 if n else None},
+               "geometry": {"type": "Point", "coordinates": [low[0] + 20 + 10 * n, low[1] + 20]}} for n in range(3)]
+    return json.dumps({"type": "FeatureCollection", "name": "trees", "features": points,
+                       "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25833"}}})
+
+
 def terrain(city):
     """Land about the town that rises to the south, as GeoTIFF: one strip of 32 bit numbers."""
     low, cells, size = city["transform"]["translate"], 40, 100.0
@@ -95,6 +104,7 @@ def make_desk(source, folder, environment):
         model = json.load(file)
     write(os.path.join(folder, "weather.epw"), epw())
     write(os.path.join(folder, "plan.gpkg"), plan(model))
+    write(os.path.join(folder, "trees.gpkg"), trees(model))
     with open(os.path.join(folder, "dem.tif"), "wb") as file:
         file.write(terrain(model))
     street = text_of(os.path.join(folder, "configs/street.yaml"))

@@ -32,10 +32,12 @@ const Names names{"id", "gml_id", "osm_id", "fid", "egid", "ref", "name"};
 FootprintTable::FootprintTable(const std::string& path, OGRLayerH layer, FootprintRules rules,
                                double unit_m, NoteCounter& notes)
     : path_(path), rules_(std::move(rules)), notes_(notes), columns_(path, layer, unit_m) {
-  height_ = column(rules_.height, rules_.storeys.empty() ? heights : Names{}, "heights");
-  storeys_ = column(rules_.storeys, storeys, "storeys");
-  base_ = column(rules_.base, rules_.terrain.empty() ? bases : Names{}, "feet");
-  name_ = column(rules_.name, names, "names");
+  height_ = columns_.found(rules_.height, rules_.storeys.empty() ? heights : Names{},
+                           "heights of footprints", notes_);
+  storeys_ = columns_.found(rules_.storeys, storeys, "storeys of footprints", notes_);
+  base_ = columns_.found(rules_.base, rules_.terrain.empty() ? bases : Names{},
+                         "feet of footprints", notes_);
+  name_ = columns_.found(rules_.name, names, "names of footprints", notes_);
   lower_end_ = columns_.usual(lower_ends);
   lower_level_ = columns_.usual(lower_levels);
   if (height_ >= 0 || storeys_ >= 0 || rules_.default_height_m) return;
@@ -43,16 +45,6 @@ FootprintTable::FootprintTable(const std::string& path, OGRLayerH layer, Footpri
       {path_}, "no column of heights is known", columns_.in_words(),
       "name one: footprints: {height: COLUMN} or {storeys: COLUMN} (of sunload init --height or "
       "--storeys), or give {default_height_m: …} for all");
-}
-
-/// -1: there is none.
-int FootprintTable::column(const std::string& wanted, LayerColumns::UsualNames usual,
-                           const char* what) {
-  if (!wanted.empty()) return columns_.named(wanted);
-  const int found = columns_.usual(usual);
-  if (found >= 0)
-    notes_.say(fmt::format("{} of footprints from column {}", what, columns_.name(found)));
-  return found;
 }
 
 std::string FootprintTable::name_of(OGRFeatureH feature) const {

@@ -40,7 +40,6 @@ class FootprintTable {
   std::string warning(std::size_t all) const;
 
  private:
-  int column(const std::string& wanted, LayerColumns::UsualNames usual, const char* what);
   std::optional<double> known_height_m(OGRFeatureH feature);
 
   std::string path_;

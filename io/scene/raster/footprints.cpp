@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -18,7 +19,7 @@
 #include "io/scene/raster/fill_holes.h"
 #include "io/scene/raster/footprint_map.h"
 #include "io/scene/raster/footprint_table.h"
-#include "io/scene/raster/gdal_file.h"
+#include "io/scene/raster/plan_layer.h"
 #include "io/scene/raster/raster.h"
 
 namespace sunload {
@@ -26,6 +27,8 @@ namespace sunload {
 namespace {
 
 constexpr double highest_m = 2000;  // no building is higher
+constexpr std::array layer_types{wkbPolygon, wkbMultiPolygon, wkbUnknown, wkbCurvePolygon,
+                                 wkbMultiSurface};
 
 class FootprintReader {
  public:
@@ -36,10 +39,10 @@ class FootprintReader {
         unit_m_(rules.unit_m) {}
 
   PolygonModel read() {
-    dataset_ =
-        open_with_gdal(path_, GDAL_OF_VECTOR, {"GeoJSON", "GPKG", "ESRI Shapefile", "FlatGeobuf"});
+    dataset_ = open_plan_data(path_);
     if (!dataset_) fail("cannot be read as footprints");
-    layer_ = chosen_layer();
+    layer_ = plan_layer(path_, dataset_, rules_.layer,
+                        {layer_types, "polygons", "the buildings", "footprints"});
     map_.emplace(path_, layer_, map_of_degrees_, unit_m_);
     table_.emplace(path_, layer_, rules_, unit_m_, notes_);
     read_terrain();
@@ -60,35 +63,6 @@ class FootprintReader {
   [[noreturn]] void fail(const std::string& what, const std::string& why = {},
                          const std::string& hint = {}) const {
     throw InputError({path_}, what, why.empty() ? messages_.first() : why, hint);
-  }
-
-  OGRLayerH chosen_layer() const {
-    std::string known;
-    OGRLayerH found = nullptr;
-    int polygons = 0;
-    for (int k = 0; k < gdal::GDALDatasetGetLayerCount(dataset_.get()); ++k) {
-      OGRLayerH layer = gdal::GDALDatasetGetLayer(dataset_.get(), k);
-      const std::string name = gdal::OGR_L_GetName(layer);
-      known += (known.empty() ? "" : ", ") + name;
-      if (!rules_.layer.empty()) {
-        if (name == rules_.layer) found = layer;
-        continue;
-      }
-      const auto type = gdal::OGR_GT_Flatten(gdal::OGR_L_GetGeomType(layer));
-      const bool may_be = type == wkbPolygon || type == wkbMultiPolygon || type == wkbUnknown ||
-                          type == wkbCurvePolygon || type == wkbMultiSurface;
-      if (!may_be) continue;
-      found = layer;
-      ++polygons;
-    }
-    if (polygons > 1)
-      fail("has several layers of polygons: " + known, "which are the buildings is not known",
-           "name one: footprints: {layer: …}");
-    if (found == nullptr)
-      fail(
-          rules_.layer.empty() ? "has no layer of polygons" : "has no layer '" + rules_.layer + "'",
-          "its layers: " + known);
-    return found;
   }
 
   void read_terrain() {

@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "geo/base/check.h"
-#include "io/base/file_text.h"
 
 namespace sunload {
 
@@ -45,6 +44,14 @@ int LayerColumns::usual(UsualNames names) const {
     for (std::size_t k = 0; k < names_.size(); ++k)
       if (lower_case(names_[k]) == name) return static_cast<int>(k);
   return -1;
+}
+
+int LayerColumns::found(const std::string& wanted, UsualNames usual_names, const std::string& what,
+                        NoteCounter& notes) const {
+  if (!wanted.empty()) return named(wanted);
+  const int column = usual(usual_names);
+  if (column >= 0) notes.say(fmt::format("{} from column {}", what, name(column)));
+  return column;
 }
 
 std::string LayerColumns::text(OGRFeatureH feature, int column) const {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/base/file_text.h"
 #include "io/base/gdal.h"
 #include "io/scene/raster/written_length.h"
 
@@ -28,6 +29,10 @@ class LayerColumns {
   int named(const std::string& name) const;
   /// That of the first of these that there is; -1: none.
   int usual(UsualNames names) const;
+  /// That of the wanted name, or where it is empty of the first usual one, which is noted: "heights
+  /// of footprints".
+  int found(const std::string& wanted, UsualNames usual_names, const std::string& what,
+            NoteCounter& notes) const;
   const std::string& name(int column) const { return names_[static_cast<std::size_t>(column)]; }
   std::string in_words() const;
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -12,8 +13,8 @@
 #include "io/base/file_text.h"
 #include "io/base/first_of_many.h"
 #include "io/scene/base/from_file.h"
-#include "io/scene/raster/gdal_file.h"
 #include "io/scene/raster/layer_columns.h"
+#include "io/scene/raster/plan_layer.h"
 
 namespace sunload {
 
@@ -30,6 +31,7 @@ const Names crowns{
     "kronedurch",    "kronendurch",    "kronendurchmesser", "kronenbreite",  "diametre_couronne",
     "diametro_copa", "prumer_koruny",  "sirka_koruny"};
 const Names names{"id", "gml_id", "osm_id", "fid", "tree_id", "treeid", "ref", "name"};
+constexpr std::array layer_types{wkbPoint, wkbMultiPoint, wkbUnknown};
 constexpr double tallest_m = 150;  // the tallest trees have 116, and no crown is as wide
 
 class TreePointReader {
@@ -39,10 +41,10 @@ class TreePointReader {
       : path_(path), rules_(rules), crs_(crs), unit_m_(unit_m) {}
 
   TreePoints read() {
-    dataset_ =
-        open_with_gdal(path_, GDAL_OF_VECTOR, {"GeoJSON", "GPKG", "ESRI Shapefile", "FlatGeobuf"});
+    dataset_ = open_plan_data(path_);
     if (!dataset_) fail("cannot be read as points of trees", messages_.first());
-    layer_ = chosen_layer();
+    layer_ =
+        plan_layer(path_, dataset_, rules_.layer, {layer_types, "points", "the trees", "trees"});
     find_columns();
     choose_map();
     gdal::OGR_L_ResetReading(layer_);
@@ -59,36 +61,11 @@ class TreePointReader {
     throw InputError({path_}, what, why, hint);
   }
 
-  OGRLayerH chosen_layer() const {
-    std::string known;
-    OGRLayerH found = nullptr;
-    int layers = 0;
-    for (int k = 0; k < gdal::GDALDatasetGetLayerCount(dataset_.get()); ++k) {
-      OGRLayerH layer = gdal::GDALDatasetGetLayer(dataset_.get(), k);
-      const std::string name = gdal::OGR_L_GetName(layer);
-      known += (known.empty() ? "" : ", ") + name;
-      const auto type = gdal::OGR_GT_Flatten(gdal::OGR_L_GetGeomType(layer));
-      const bool may_be = rules_.layer.empty()
-                              ? type == wkbPoint || type == wkbMultiPoint || type == wkbUnknown
-                              : name == rules_.layer;
-      if (!may_be) continue;
-      found = layer;
-      ++layers;
-    }
-    if (found == nullptr)
-      fail(rules_.layer.empty() ? "has no layer of points" : "has no layer '" + rules_.layer + "'",
-           "its layers: " + known);
-    if (layers > 1)
-      fail("has several layers of points: " + known, "which are the trees is not known",
-           "name one: trees: {layer: …}");
-    return found;
-  }
-
   void find_columns() {
     columns_.emplace(path_, layer_, unit_m_);
-    height_ = column(rules_.height, heights, "heights");
-    crown_ = column(rules_.crown, crowns, "widths of crowns");
-    name_ = column(rules_.name, names, "names");
+    height_ = columns_->found(rules_.height, heights, "heights of trees", notes_);
+    crown_ = columns_->found(rules_.crown, crowns, "widths of crowns", notes_);
+    name_ = columns_->found(rules_.name, names, "names of trees", notes_);
     kind_ = columns_->usual(Names{"natural"});
     for (const auto& [found, usual, what, key] :
          {std::tuple{height_, rules_.default_height_m, "heights", "height"},
@@ -97,14 +74,6 @@ class TreePointReader {
         fail(fmt::format("no column of {} is known", what), columns_->in_words(),
              fmt::format("name one: trees: {{{}: COLUMN}}, or give {{default_{}_m: …}} for all",
                          key, key));
-  }
-
-  int column(const std::string& wanted, LayerColumns::UsualNames usual, const char* what) {
-    if (!wanted.empty()) return columns_->named(wanted);
-    const int found = columns_->usual(usual);
-    if (found >= 0)
-      notes_.say(fmt::format("{} of trees from column {}", what, columns_->name(found)));
-    return found;
   }
 
   /// GeoJSON that names no CRS is in degrees by its standard, and often in metres of the scene's
