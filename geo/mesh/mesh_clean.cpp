@@ -19,15 +19,6 @@ void keep_items(std::vector<T>& items, const std::vector<std::uint8_t>& keep) {
   items.resize(kept);
 }
 
-struct CornerKey {
-  std::int32_t object;
-  std::array<std::int32_t, 3> corners;  // ascending
-  std::uint32_t triangle;
-  bool same_place(const CornerKey& other) const {
-    return object == other.object && corners == other.corners;
-  }
-};
-
 /// True where the ascending order of the corners is a cyclic shift of theirs.
 bool is_even(const std::array<std::int32_t, 3>& t) {
   const int descents = (t[0] > t[1]) + (t[1] > t[2]) + (t[2] > t[0]);
@@ -63,29 +54,42 @@ void drop_unused_vertices(Mesh& mesh) {
   }
 }
 
-Duplicates drop_duplicates(Mesh& mesh) {
-  std::vector<CornerKey> keys(mesh.triangle_count());
+std::vector<std::size_t> first_in_place(const Mesh& mesh) {
+  struct Key {
+    std::int32_t object;
+    std::array<std::int32_t, 3> corners;  // ascending
+    std::size_t triangle;
+  };
+  std::vector<Key> keys(mesh.triangle_count());
   for (std::size_t t = 0; t < keys.size(); ++t) {
-    keys[t] = {mesh.triangle_object[t].value, mesh.triangles[t], static_cast<std::uint32_t>(t)};
+    keys[t] = {mesh.triangle_object[t].value, mesh.triangles[t], t};
     std::sort(keys[t].corners.begin(), keys[t].corners.end());
   }
-  std::sort(keys.begin(), keys.end(), [](const CornerKey& a, const CornerKey& b) {
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
     return std::tie(a.object, a.corners, a.triangle) < std::tie(b.object, b.corners, b.triangle);
   });
+  std::vector<std::size_t> first(keys.size());
+  for (std::size_t i = 0, begin = 0; i < keys.size(); ++i) {
+    const Key &a = keys[begin], &b = keys[i];
+    if (std::tie(a.object, a.corners) != std::tie(b.object, b.corners)) begin = i;
+    first[b.triangle] = keys[begin].triangle;
+  }
+  return first;
+}
+
+bool looks_as(const Mesh& mesh, std::size_t a, std::size_t b) {
+  return is_even(mesh.triangles[a]) == is_even(mesh.triangles[b]);
+}
+
+Duplicates drop_duplicates(Mesh& mesh, const std::vector<std::size_t>& place) {
   Duplicates result;
-  result.faced_both_ways.assign(keys.size(), 0);
-  std::vector<std::uint8_t> keep(keys.size(), 1);
-  for (std::size_t i = 1, first = 0; i < keys.size(); ++i) {
-    if (!keys[i].same_place(keys[first])) {
-      first = i;
-      continue;
-    }
-    keep[keys[i].triangle] = 0;
+  result.faced_both_ways.assign(place.size(), 0);
+  std::vector<std::uint8_t> keep(place.size(), 1);
+  for (std::size_t t = 0; t < place.size(); ++t) {
+    if (place[t] == t) continue;
+    keep[t] = 0;
     ++result.dropped;
-    if (is_even(mesh.triangles[keys[i].triangle]) !=
-        is_even(mesh.triangles[keys[first].triangle])) {
-      result.faced_both_ways[keys[first].triangle] = 1;
-    }
+    if (!looks_as(mesh, t, place[t])) result.faced_both_ways[place[t]] = 1;
   }
   keep_triangles(mesh, keep);
   keep_items(result.faced_both_ways, keep);

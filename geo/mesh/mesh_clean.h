@@ -16,6 +16,12 @@ void keep_triangles(Mesh& mesh, const std::vector<std::uint8_t>& keep);
 /// Drops vertices that no triangle uses; the others keep their order.
 void drop_unused_vertices(Mesh& mesh);
 
+/// Per triangle the first one of its object that has the same corners, in any order.
+std::vector<std::size_t> first_in_place(const Mesh& mesh);
+
+/// Whether two triangles with the same corners face the same way.
+bool looks_as(const Mesh& mesh, std::size_t a, std::size_t b);
+
 /// Triangles that lay in the place of another one of their object.
 struct Duplicates {
   std::size_t dropped = 0;
@@ -24,8 +30,8 @@ struct Duplicates {
 };
 
 /// Of triangles of one object with the same corners the first stays. Triangles
-/// of different objects stay: bodies that touch keep their walls and close.
-Duplicates drop_duplicates(Mesh& mesh);
+/// of different objects stay: bodies that touch keep their walls and close. `place`: as above.
+Duplicates drop_duplicates(Mesh& mesh, const std::vector<std::size_t>& place);
 
 /// Longest edge / shortest height; infinite for a triangle without area.
 double aspect(const Mesh& mesh, std::size_t triangle);

@@ -13,6 +13,7 @@
 #include "geo/mesh/facade.h"
 #include "geo/mesh/mesh_clean.h"
 #include "geo/mesh/orient.h"
+#include "geo/mesh/shared_faces.h"
 #include "geo/mesh/surface_kind.h"
 #include "geo/mesh/t_joints.h"
 #include "geo/mesh/triangulate.h"
@@ -155,6 +156,16 @@ Mesh triangles_of(const PolygonModel& model, const PrepareRules& rules, const Pl
   return mesh;
 }
 
+/// Step 6. Per triangle that is left 1 where a front and a back were in the same place.
+std::vector<std::uint8_t> drop_copies(Mesh& mesh, PrepareReport& report) {
+  std::vector<std::size_t> place = first_in_place(mesh);
+  report.bodies_parted = part_bodies_that_share_faces(mesh, place);
+  if (report.bodies_parted > 0) place = first_in_place(mesh);
+  Duplicates duplicates = drop_duplicates(mesh, place);
+  report.duplicates_dropped = duplicates.dropped;
+  return std::move(duplicates.faced_both_ways);
+}
+
 /// On a slope the underside of a body is higher than its lowest point.
 void take_floors(Mesh& mesh, const std::vector<Foot>& feet) {
   for (const Foot& foot : feet)
@@ -172,9 +183,7 @@ std::vector<Foot> settle(Mesh& mesh, const PrepareRules& rules, const PolygonMod
         rules.repair == Repair::all
             ? split_t_joints(mesh, tolerance, model.source)
             : split_t_joints(mesh, rounded_per_weld * tolerance, model.source, TJoints::that_close);
-    auto duplicates = drop_duplicates(mesh);
-    report.duplicates_dropped = duplicates.dropped;
-    faced_both_ways = std::move(duplicates.faced_both_ways);
+    faced_both_ways = drop_copies(mesh, report);
   }
   const bool may_turn = rules.repair != Repair::none && rules.orientation == Orientation::outward;
   bodies = orient(mesh, faced_both_ways, may_turn ? Winding::turn : Winding::keep);

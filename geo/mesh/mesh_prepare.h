@@ -17,7 +17,8 @@
 /// 5. **T-joints** (geo/mesh/t_joints, not for `none`): corners that lie on an open edge
 ///    of their own object split it; all of them (`all`), or where that closes a body.
 /// 6. **Duplicates** (geo/mesh/mesh_clean, not for `none`): triangles of one object
-///    with the same three corners become one. A front and a back in the same
+///    with the same three corners become one, but faces that two bodies have in common
+///    and that look the same way for both (geo/mesh/shared_faces). A front and a back in the same
 ///    place are a two-sided sheet, unless the object closes with one of them.
 /// 7. **Orient** (geo/mesh/orient; `none` and `keep` change no winding): closed bodies are
 ///    turned outward, cavities with the body around them; open sheets keep the
@@ -82,6 +83,7 @@ struct PrepareReport {
   std::size_t degenerates_dropped = 0, duplicates_dropped = 0;
   std::size_t sheets_merged = 0;  ///< front and back in the same place: now one two-sided triangle
   std::size_t t_joints_split = 0;
+  std::size_t bodies_parted = 0;  ///< from others of their object, with which they share faces
   std::size_t triangles_flipped = 0;
   std::size_t closed_bodies = 0, open_sheets = 0;
   std::size_t inside_out_bodies = 0;  ///< left so (`none` or `keep` only)

@@ -32,6 +32,10 @@ std::string counts_text(const PrepareReport& r) {
       r.duplicates_dropped, r.polygons_untriangulated, r.polygons_nonplanar, r.polygons_crossing,
       r.unorientable, r.closed_bodies, r.volume_m3, r.inside_out_bodies, r.open_sheets,
       r.open_edges, r.nonmanifold_edges, r.floors, r.worst_aspect);
+  if (r.bodies_parted > 0)
+    text +=
+        fmt::format("  parted    {} bodies from others of one object that share faces with them\n",
+                    r.bodies_parted);
   text += "  area     ";
   for (std::size_t s = 0; s < surface_names.size(); ++s)
     if (r.area_m2[s] > 0) text += fmt::format(" {} {:.6g} m2", surface_names[s], r.area_m2[s]);
