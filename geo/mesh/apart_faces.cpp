@@ -25,7 +25,7 @@ class OddBodies {
     std::vector<std::size_t> at_odd_edges;
     for_each_edge(uses, [&](std::span<const EdgeUse> at_edge) {
       for (const EdgeUse& use : at_edge) together_.join(at_edge[0].triangle(), use.triangle());
-      if (at_edge.size() > 1 && at_edge.size() % 2 != 0)
+      if (at_edge.size() > 1 && at_edge.size() % 2 != 0 && !are_feet_that_touch(mesh, at_edge))
         at_odd_edges.push_back(at_edge[0].triangle());
     });
     is_any_ = !at_odd_edges.empty();

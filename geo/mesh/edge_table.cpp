@@ -44,10 +44,13 @@ bool is_foot_of_wall(const Mesh& mesh, const EdgeUse& use) {
 }
 
 bool are_feet_that_touch(const Mesh& mesh, std::span<const EdgeUse> uses) {
-  if (uses.size() != 2 || !is_foot_of_wall(mesh, uses[0]) || !is_foot_of_wall(mesh, uses[1]))
-    return false;
+  if (uses.size() < 2) return false;
+  for (const EdgeUse& use : uses)
+    if (!is_foot_of_wall(mesh, use)) return false;
   const std::vector<double> angles = angles_about(mesh, uses);
-  return std::abs(std::remainder(angles[0] - angles[1], 2 * pi)) < same_angle;
+  return std::ranges::all_of(angles, [&](double angle) {
+    return std::abs(std::remainder(angle - angles[0], 2 * pi)) < same_angle;
+  });
 }
 
 std::vector<double> angles_about(const Mesh& mesh, std::span<const EdgeUse> uses) {

@@ -52,8 +52,9 @@ inline constexpr double same_angle = 1e-3;
 
 /// Whether the edge is the lower one of an upright triangle that stands on it.
 bool is_foot_of_wall(const Mesh& mesh, const EdgeUse& use);
-/// Whether these are the feet of two walls that lie on each other: party walls of houses without
-/// floors, of which one is longer or higher. The two do not go on from each other there.
+/// Whether these are the feet of two walls or more that lie on each other: of houses without floors
+/// that touch, of which one is longer or higher, or that lie in one another. They do not go on from
+/// each other there.
 bool are_feet_that_touch(const Mesh& mesh, std::span<const EdgeUse> uses);
 
 /// True where the triangle walks the edge from its lower to its higher vertex.

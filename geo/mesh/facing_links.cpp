@@ -104,20 +104,19 @@ Links link_edges(const Mesh& mesh, const std::vector<std::uint8_t>& included) {
   const auto all = edge_uses(mesh, included);
   for_each_edge(all, [&](std::span<const EdgeUse> uses) {
     for (const auto& use : uses) links.up[use.half_edge] = walks_up(mesh, use);
-    if (uses.size() == 1) ++links.open_edges;
-    if (uses.size() > 2) ++links.nonmanifold_edges;
-    if (uses.size() != 2) return;
-    if (are_feet_that_touch(mesh, uses)) {
-      links.open_edges += 2;
+    if (uses.size() == 1 || are_feet_that_touch(mesh, uses)) {
+      links.open_edges += uses.size();
       return;
     }
+    if (uses.size() > 2) ++links.nonmanifold_edges;
+    if (uses.size() != 2) return;
     links.next[uses[0].half_edge] = uses[1].half_edge;
     links.next[uses[1].half_edge] = uses[0].half_edge;
   });
   if (links.nonmanifold_edges == 0) return links;
   const Grouping sheets = group(mesh, links, included);
   for_each_edge(all, [&](std::span<const EdgeUse> uses) {
-    if (uses.size() == 2 || uses.size() % 2 != 0) return;
+    if (uses.size() == 2 || uses.size() % 2 != 0 || are_feet_that_touch(mesh, uses)) return;
     const auto others = others_after_linking_sheets(sheets, uses, links);
     if (others.empty()) return;
     const auto ring = around_edge(by_angle(mesh, links, sheets, others));

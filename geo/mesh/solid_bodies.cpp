@@ -82,16 +82,24 @@ class OpenBelowHouses {
     std::vector<std::uint8_t> included(mesh_.triangle_count(), 0);
     for (std::size_t t = 0; t < included.size(); ++t) included[t] = is_of_house(t);
     for_each_edge(edge_uses(mesh_, included), [&](std::span<const EdgeUse> uses) {
-      if (uses.size() != 1) return;
-      const EdgeUse& use = uses[0];
-      const Vec3 outward = mesh_.area_vector2(use.triangle());
-      const double length = norm(Vec3{outward.x, outward.y, 0});
-      const Vec3 middle = (mesh_.vertices[static_cast<std::size_t>(use.low)] +
-                           mesh_.vertices[static_cast<std::size_t>(use.high)]) /
-                          2;
-      feet_[body(use.triangle())].push_back(
-          {middle, length > 0 ? Vec3{-outward.x, -outward.y, 0} / length : Vec3{}});
+      for (const EdgeUse& use : uses)
+        if (is_alone(use, uses)) feet_[body(use.triangle())].push_back(foot_of(use));
     });
+  }
+
+  /// Of its body: houses that touch, or lie in one another, have feet in one place.
+  bool is_alone(const EdgeUse& use, std::span<const EdgeUse> uses) const {
+    return std::ranges::count_if(uses, [&](const EdgeUse& other) {
+             return body(other.triangle()) == body(use.triangle());
+           }) == 1;
+  }
+  FootPoint foot_of(const EdgeUse& use) const {
+    const Vec3 outward = mesh_.area_vector2(use.triangle());
+    const double length = norm(Vec3{outward.x, outward.y, 0});
+    const Vec3 middle = (mesh_.vertices[static_cast<std::size_t>(use.low)] +
+                         mesh_.vertices[static_cast<std::size_t>(use.high)]) /
+                        2;
+    return {middle, length > 0 ? Vec3{-outward.x, -outward.y, 0} / length : Vec3{}};
   }
 
   void find_land(const std::vector<std::uint8_t>& is_opaque) {

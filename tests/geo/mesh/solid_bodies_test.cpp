@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -175,6 +176,28 @@ TEST(SolidBodies, AreTwoHousesOfOneMeshWhosePartyWallsShareTheirFeet) {
     EXPECT_NEAR(of_gable.walls, 2 * 4 * 6 + 2 * 6 + 2 * 2 + (2 + 2 + 2) * 6, rounding_m2);
     EXPECT_NEAR(of_gable.roofs, 2 * 4 * std::sqrt(5.0) + 2 * 2, rounding_m2);
   }
+}
+
+// Walls of three houses stand on one edge; a low house and a high one on the same outline.
+TEST(SolidBodies, AreHousesOfOneMeshOfWhichSeveralShareFeet) {
+  const std::vector<std::vector<std::array<Vec3, 2>>> heaps{
+      {{{{6, 1, 0}, {7, 3, 3}}}, {{{6, 3, 0}, {8, 6, 2}}}, {{{4, 3, 0}, {7, 5, 3}}}},
+      {{{{2, 0, 0}, {5, 3, 3}}}, {{{2, 0, 0}, {5, 3, 2}}}},
+      {{{{2, 0, 0}, {5, 3, 3}}}, {{{2, 0, 0}, {5, 3, 2}}}, {{{2, 0, 0}, {5, 3, 1}}}},
+      {{{{0, 0, 0}, {10, 8, 6}}}, {{{4, 0, 0}, {10, 8, 6}}}}};
+  for (const On on : both)
+    for (const auto& heap : heaps) {
+      auto with = begun(on), town = begun(on);
+      town.object("town");
+      for (const auto& [a, b] : heap) {
+        with.object("h" + std::to_string(with.model().object_names.size())).box(a, b);
+        town.walls_and_roof(a, b);
+      }
+      const Open expected = open_of(with, on), open = open_of(town, on);
+      EXPECT_NEAR(open.walls, expected.walls, rounding_m2);
+      EXPECT_NEAR(open.roofs, expected.roofs, rounding_m2);
+      EXPECT_NEAR(open.others, 0, rounding_m2);
+    }
 }
 
 }  // namespace
