@@ -184,17 +184,39 @@ class Orienter {
     turned_[b] = 1;
   }
 
+  Vec3 middle(std::size_t t) const {
+    return (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3;
+  }
+
+  /// Middles of the first triangle and of those farthest out along each axis: a dormer in a roof
+  /// has some of them inside of its house, and some outside.
+  std::vector<Vec3> outmost(std::size_t b) const {
+    const auto triangles = members_.of(b);
+    std::vector<Vec3> points(7, middle(triangles[0]));
+    for (const auto t : triangles) {
+      const Vec3 p = middle(t);
+      if (p.x < points[1].x) points[1] = p;
+      if (p.x > points[2].x) points[2] = p;
+      if (p.y < points[3].y) points[3] = p;
+      if (p.y > points[4].y) points[4] = p;
+      if (p.z < points[5].z) points[5] = p;
+      if (p.z > points[6].z) points[6] = p;
+    }
+    return points;
+  }
+
   /// The smallest of the bodies around that really holds the body, or -1.
   std::int64_t innermost_around(std::size_t b, const std::vector<std::size_t>& around) const {
     std::int64_t result = -1;
-    const auto t = members_.of(b)[0];
-    const Vec3 p = (mesh_.corner(t, 0) + mesh_.corner(t, 1) + mesh_.corner(t, 2)) / 3;
+    const std::vector<Vec3> points = outmost(b);
     for (const auto c : around) {
       if (result >= 0 && std::abs(bodies_[c].volume) >=
                              std::abs(bodies_[static_cast<std::size_t>(result)].volume)) {
         continue;
       }
-      if (std::abs(winding_number(mesh_, members_.of(c), g_.flip, p)) > inside) {
+      if (std::ranges::all_of(points, [&](Vec3 p) {
+            return std::abs(winding_number(mesh_, members_.of(c), g_.flip, p)) > inside;
+          })) {
         result = static_cast<std::int64_t>(c);
       }
     }

@@ -82,6 +82,32 @@ TEST(Orient, ABodyBesideAnotherIsNoCavity) {
   EXPECT_EQ(p.report.triangles_flipped, 12u);
 }
 
+TEST(Orient, ABodyThatReachesOutOfAnotherIsNoCavity) {
+  // A dormer within the bounding box of its house: its floor is in the house, its roof is not.
+  const Vec3 along{10, 0, 0};
+  const std::vector<Vec3> gable{{0, 0, 0}, {0, 8, 0}, {0, 4, 8}};
+  for (const bool is_house_inward : {false, true})
+    for (const bool is_dormer_inward : {false, true})
+      for (const bool is_floor_first : {false, true}) {
+        auto builder = ModelBuilder().object("house");
+        const auto add = [&](const std::vector<Vec3>& face, bool is_inward) {
+          builder.ring(is_inward ? reversed(face) : face);
+        };
+        add(reversed(gable), is_house_inward);
+        add({gable[0] + along, gable[1] + along, gable[2] + along}, is_house_inward);
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Vec3 a = gable[i], b = gable[(i + 1) % 3];
+          add({a, b, b + along, a + along}, is_house_inward);
+        }
+        auto dormer = ModelBuilder::box_faces({4, 1, 1}, {6, 3, 7});
+        if (!is_floor_first) std::ranges::reverse(dormer);
+        for (const auto& face : dormer) add(face, is_dormer_inward);
+        const auto p = builder.prepared();
+        EXPECT_EQ(p.report.closed_bodies, 2u);
+        EXPECT_NEAR(volume(p.mesh), 320 + 24, orient_rounding);
+      }
+}
+
 TEST(Orient, HousesOfOneObjectThatShareAnEdgeAreTurnedOutward) {
   for (const bool is_first_inward : {false, true})
     for (const bool is_second_inward : {false, true}) {
