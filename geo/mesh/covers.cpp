@@ -186,7 +186,7 @@ bool Covers::reaches_before(std::size_t t, std::int32_t body) const {
 
 Covers::Meets Covers::ending(std::size_t t, std::size_t u) const {
   const bool may_end = is_in_solid(u) || may_bury(t, u) || (is_land_[t] && seals(u)) ||
-                       (is_relief(t) && open_houses_.is_wall(u));
+                       (is_relief(t) && open_houses_.is_wall(u)) || open_houses_.is_of_tight(u);
   if (!may_end || !is_cut(u, t)) return Meets::not_at_all;
   if (is_cut(t, u)) return Meets::through;
   const auto is_before = [&](Vec3 corner) { return distance(t, corner) > looked_at_m(); };

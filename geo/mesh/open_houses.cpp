@@ -37,7 +37,10 @@ int side_of(const Corners& corners, Vec3 p, const Turned& turned) {
 
 OpenHouses::OpenHouses(const Mesh& mesh, const Bodies& bodies,
                        const std::vector<std::uint8_t>& is_opaque)
-    : mesh_(mesh), is_wall_(mesh.triangle_count(), 0), of_object_(mesh.object_names.size()) {
+    : mesh_(mesh),
+      is_wall_(mesh.triangle_count(), 0),
+      is_of_tight_(mesh.triangle_count(), 0),
+      of_object_(mesh.object_names.size()) {
   is_tight_.assign(mesh.object_names.size(), 0);
   if (std::ranges::none_of(mesh.object_kinds, is_land)) return;
   const OpenBelow open_below(mesh, bodies);
@@ -71,6 +74,7 @@ OpenHouses::OpenHouses(const Mesh& mesh, const Bodies& bodies,
     const Has of_object = has[mesh.triangle_object[t].index()];
     if (!of_object.walls || !of_object.roof || !may_belong(t) || is_within(t)) continue;
     is_wall_[t] = slope_of(mesh, t) == Slope::upright;
+    is_of_tight_[t] = is_tight_[mesh.triangle_object[t].index()];
     triangle_.push_back(t);
     boxes.push_back(box_of(mesh, t));
     Box& of = of_object_[mesh.triangle_object[t].index()];

@@ -23,6 +23,8 @@ class OpenHouses {
 
   /// Whether the triangle is a wall of one.
   bool is_wall(std::size_t t) const { return is_wall_[t] != 0; }
+  /// Whether the triangle is a wall or roof of an object whose houses are open below alone.
+  bool is_of_tight(std::size_t t) const { return is_of_tight_[t] != 0; }
   /// Whether an object has a roof above the point and walls about it: in each of the four
   /// directions along the axes an odd number. (A passage below a house has two open ends.)
   bool hold(Vec3 p) const { return holder(p).has_value(); }
@@ -35,7 +37,7 @@ class OpenHouses {
   bool enclose(ObjectId object, Vec3 p) const;
 
   const Mesh& mesh_;
-  std::vector<std::uint8_t> is_wall_;  ///< per triangle
+  std::vector<std::uint8_t> is_wall_, is_of_tight_;  ///< per triangle
   std::vector<Box> of_object_;
   std::vector<std::uint8_t> is_tight_;  ///< per object: its houses are open below alone
   std::vector<std::size_t> triangle_;   ///< of the tree

@@ -259,6 +259,25 @@ TEST(Covered, LandInHousesWithoutAFloorIsCovered) {
     }
 }
 
+// A dormer of the same object whose front ends 2.5 cm above the roof: neither is in the other, but
+// the house holds what of its roof lies below the dormer.
+TEST(Covered, OfARoofOnlyWhatLiesBelowADormerIsCovered) {
+  auto builder = ModelBuilder().object("terrain", "TINRelief");
+  builder.ring({{-50, -50, 0}, {60, -50, 0}, {60, 60, 0}, {-50, 60, 0}});
+  const std::array<Vec3, 5> gable{Vec3{0, 0, 0}, Vec3{0, 0, 6}, Vec3{0, 4, 9}, Vec3{0, 8, 6},
+                                  Vec3{0, 8, 0}};
+  const Vec3 along{12, 0, 0};
+  builder.object("house").ring({gable[4], gable[3], gable[2], gable[1], gable[0]});
+  builder.ring(
+      {gable[0] + along, gable[4] + along, gable[3] + along, gable[2] + along, gable[1] + along});
+  for (std::size_t k = 0; k + 1 < gable.size(); ++k)
+    builder.ring({gable[k], gable[k] + along, gable[k + 1] + along, gable[k + 1]});
+  builder.walls_and_roof({4, 0.5, 6.4}, {6, 2.5, 8});
+  const auto c = cut(builder);
+  const double below = 2 * (2.5 - 4 * 0.4 / 3) * 1.25;  // m2: the roof rises by 3 m in 4 m
+  EXPECT_NEAR(c.covered("house", Surface::roof), below, 0.02 * below);  // some mm at its rim
+}
+
 // Of rooms, and of passages through houses, which are open at their ends.
 TEST(Covered, FloorsAndPassagesAreOpen) {
   auto room = ModelBuilder().object("room").with(Surface::ground);
