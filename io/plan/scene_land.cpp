@@ -69,12 +69,12 @@ void turn_upward(const ChosenObjects& is_land, PolygonModel& model) {
 }  // namespace
 
 void call_land(const SceneStudy& scene, PolygonModel& model) {
-  if (scene.land.empty()) return;
   const FamilyTree tree(model.object_names, model.object_kinds, model.families);
   Problems problems;
   std::vector<std::string> kinds = model.object_kinds;
   kinds.resize(model.object_names.size());
-  ChosenObjects is_land(kinds.size(), 0);
+  ChosenObjects lands(kinds.size(), 0);
+  std::ranges::transform(kinds, lands.begin(), is_land);  // as city formats say
   for (const auto& [pattern, where] : scene.land) {
     const ChosenObjects named = objects_named(pattern, tree);
     bool any = false;
@@ -82,16 +82,16 @@ void call_land(const SceneStudy& scene, PolygonModel& model) {
       if (!named[o]) continue;
       any = true;
       kinds[o] = type_of_land;
-      is_land[o] = 1;
+      lands[o] = 1;
     }
     if (!any)
       problems.add(where, fmt::format("scene.land: no object is called '{}'", pattern),
                    "what it names is the terrain", offer(near_names(pattern, model.object_names)));
   }
   problems.throw_if_any();
-  model.object_kinds = std::move(kinds);
+  if (!scene.land.empty()) model.object_kinds = std::move(kinds);
   if (scene.orient == Orientation::outward && scene.repair != Repair::none)
-    turn_upward(is_land, model);
+    turn_upward(lands, model);
 }
 
 namespace {

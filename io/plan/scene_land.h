@@ -12,8 +12,9 @@
 namespace sunload {
 
 /// Gives the objects that `scene.land` names the type of a terrain (TINRelief): their open
-/// surfaces, however steep, are ground, and what lies below is covered. Land that looks down is
-/// turned over, with a note, unless the study keeps fronts or repairs nothing: then it is none.
+/// surfaces, however steep, are ground, and what lies below is covered. Land that looks down, also
+/// of types that say so, is turned over, with a note, unless the study keeps fronts or repairs
+/// nothing: then it is none.
 /// Throws InputError for every name that matches none.
 void call_land(const SceneStudy& scene, PolygonModel& model);
 

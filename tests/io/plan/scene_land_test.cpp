@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "geo/base/check.h"
+#include "geo/mesh/delaunay.h"
 #include "io/plan/scene_build.h"
 #include "tests/support/work_folder.h"
 
@@ -94,6 +95,24 @@ bool warns_of_sunk_walls(const BuiltScene& built) {
   return std::ranges::any_of(built.warnings, [](const std::string& warning) {
     return warning.starts_with("120 m2 of walls go on below the open surface of terrain");
   });
+}
+
+TEST(SceneLand, OfACityThatLooksDownIsTurnedOver) {
+  PolygonModel model = model_of({"relief", "lake", "house"});
+  model.object_kinds = {"TINRelief", "WaterBody", "Building"};
+  model.vertices = {{0, 0, 0}, {0, 9, 1}, {9, 9, 2}};
+  model.add_triangle(0, 1, 2, {ObjectId{0}});
+  model.add_triangle(0, 1, 2, {ObjectId{1}});
+  model.add_triangle(0, 2, 1, {ObjectId{1}});  // a body of water has an underside
+  model.add_triangle(0, 1, 2, {ObjectId{2}});
+  const auto before = model.ring_vertex;
+  call_land({}, model);
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_NE(model.notes[0].find("relief: land that looked down"), std::string::npos);
+  EXPECT_EQ(newell(model.vertices, {model.ring_vertex.begin(), model.ring_vertex.begin() + 3}).z,
+            81);
+  EXPECT_TRUE(std::equal(before.begin() + 3, before.end(), model.ring_vertex.begin() + 3));
+  EXPECT_EQ(model.object_kinds[0], "TINRelief");
 }
 
 TEST(SceneLand, ThatIsNoneIsTold) {
