@@ -239,6 +239,8 @@ BuiltScene scene_before_materials(const Study& study) {
   warn_of_gaps(study, model.is_city_format ? SceneKind::city : SceneKind::plain, built);
   if (const auto lying = on_its_side_warning(study, built, model.is_city_format); !lying.empty())
     built.warnings.push_back(lying);
+  if (const auto unit = unit_warning(study, built, model.is_city_format); !unit.empty())
+    built.warnings.push_back(unit);
   if (const auto lone = lone_piece_warning(study, built); !lone.empty())
     built.warnings.push_back(lone);
   warn_of_no_land(study.scene, built.scene.mesh, built.warnings);

@@ -13,6 +13,7 @@
 
 #include "geo/base/units.h"
 #include "geo/mesh/box_tree.h"
+#include "geo/mesh/open_below.h"
 #include "geo/mesh/plan_triangles.h"
 #include "geo/mesh/slope.h"
 #include "io/base/first_of_many.h"
@@ -274,6 +275,28 @@ std::string on_its_side_warning(const Study& study, const BuiltScene& prepared,
       axis ? fmt::format("write scene.up: {} where that axis of the file points to the zenith",
                          *axis)
            : "write the axis that points to the zenith as up of each of scene.files");
+}
+
+std::string unit_warning(const Study& study, const BuiltScene& prepared, bool is_city_format) {
+  constexpr double highest_house_m = 1000;
+  if (is_city_format) return {};
+  const Mesh& mesh = prepared.scene.mesh;
+  const OpenBelow open_below(mesh, prepared.bodies);
+  const Body* highest = nullptr;
+  const auto height = [](const Body& body) { return body.box.high.z - body.box.low.z; };
+  for (std::size_t b = 0; b < prepared.bodies.bodies.size(); ++b) {
+    const Body& body = prepared.bodies.bodies[b];
+    if (!body.is_closed && !open_below.has(static_cast<std::int32_t>(b))) continue;
+    if (is_land(mesh.object_kinds[body.object.index()])) continue;
+    if (!(height(body) > highest_house_m)) continue;
+    if (highest == nullptr || height(body) > height(*highest)) highest = &body;
+  }
+  if (highest == nullptr) return {};
+  return message(study.scene.where,
+                 fmt::format("{} is {:.0f} m high, higher than any house",
+                             mesh.object_names[highest->object.index()], height(*highest)),
+                 "a number of its file is taken for a metre, or for what unit_m says",
+                 "of a model in millimetres write unit_m: 0.001");
 }
 
 namespace {

@@ -14,6 +14,10 @@ namespace sunload {
 std::string on_its_side_warning(const Study& study, const BuiltScene& prepared,
                                 bool is_city_format);
 
+/// Warns of houses higher than any real one, as of files in millimetres; only of formats that do
+/// not say their unit. Empty where there are none.
+std::string unit_warning(const Study& study, const BuiltScene& prepared, bool is_city_format);
+
 /// Warns of a small piece that lies many times as far from all else as that is wide; empty where
 /// there is none.
 std::string lone_piece_warning(const Study& study, const BuiltScene& prepared);

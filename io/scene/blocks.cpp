@@ -129,12 +129,25 @@ class BlockReader {
   void find_buildings() {
     buildings_.top.assign(cell_count(), nothing);
     const double least = files_.least_height_m / unit_m_;
-    std::size_t unknown = 0;
+    std::size_t unknown = 0, known = 0, sunken = 0;
     for (std::size_t cell = 0; cell < cell_count(); ++cell) {
+      const double height = surface_.values[cell] - terrain_.values[cell];
       if (std::isnan(surface_.values[cell]) && !std::isnan(terrain_.values[cell])) ++unknown;
-      if (surface_.values[cell] - terrain_.values[cell] >= least)
-        buildings_.top[cell] = surface_.values[cell];
+      if (height >= least) buildings_.top[cell] = surface_.values[cell];
+      known += !std::isnan(height);
+      sunken += height <= -least;
     }
+    constexpr std::size_t hardly_pits = 20;  // from one cell in so many on
+    const std::string below = fmt::format(
+        "cells have a surface that lies {:g} m or more below the terrain, and are bare "
+        "land at its height",
+        files_.least_height_m);
+    if (sunken * hardly_pits < known)
+      faces_.notes().count(below, sunken);
+    else
+      faces_.notes().warn(
+          below + "; are the two rasters the wrong way round, or one of heights above the ground?",
+          sunken);
     faces_.notes().count("cells without data in the surface raster are taken for bare land",
                          unknown);
   }
@@ -167,10 +180,12 @@ class BlockReader {
   void find_crowns() {
     crowns_.top.assign(cell_count(), nothing);
     crowns_.bottom.assign(cell_count(), nothing);
-    std::size_t hidden = 0;
+    constexpr double tallest_tree_m = 120;
+    std::size_t hidden = 0, too_high = 0;
     for (std::size_t cell = 0; cell < cell_count(); ++cell) {
       const double height = canopy_.values[cell];
       if (!(height > 0) || std::isnan(terrain_.values[cell])) continue;
+      too_high += height * unit_m_ > tallest_tree_m;
       const double top = terrain_.values[cell] + height;
       double bottom = terrain_.values[cell] + files_.trunk_share * height;
       if (buildings_.has(cell)) bottom = std::max(bottom, buildings_.top[cell]);
@@ -182,6 +197,11 @@ class BlockReader {
       crowns_.bottom[cell] = bottom;
     }
     faces_.notes().count("cells of the canopy lie inside of buildings and are left out", hidden);
+    faces_.notes().warn(
+        fmt::format("cells of the canopy have crowns of more than {:g} m; its values are heights "
+                    "above the ground",
+                    tallest_tree_m),
+        too_high);
   }
 
   Corner corner_of(std::size_t cell, int k) const {

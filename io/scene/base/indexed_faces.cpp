@@ -76,16 +76,21 @@ void IndexedFaces::note_single_precision(Vec3 as_read) {
 }
 
 void IndexedFaces::tell_coarse_steps() {
-  constexpr double coarse_m = 0.002, largest_of_maps = 1e9;
+  constexpr double coarse_m = 0.002, far_off_m = 0.1, largest_of_maps = 1e9;
   if (!(largest_single_ < largest_of_maps)) return;
   const auto largest = static_cast<float>(largest_single_);
   const double step = static_cast<double>(
       std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest);
-  if (const double step_m = step * scene_from_file_.unit_m(); step_m > coarse_m)
-    notes_.say(
-        fmt::format("coordinates as large as {:.0f} are in single precision: places are "
-                    "rounded to {:.2g} m; move the model to its origin before it is written",
-                    largest_single_, step_m));
+  const double step_m = step * scene_from_file_.unit_m();
+  if (!(step_m > coarse_m)) return;
+  const std::string what = fmt::format(
+      "coordinates as large as {:.0f} are in single precision: places are "
+      "rounded to {:.2g} m; move the model to its origin before it is written",
+      largest_single_, step_m);
+  if (step_m > far_off_m)
+    model_.warnings.push_back(model_.source + ": " + what);
+  else
+    notes_.say(what);
 }
 
 PolygonModel IndexedFaces::finish() {

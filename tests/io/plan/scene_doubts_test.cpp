@@ -64,6 +64,14 @@ class Doubts : public testing::Test {
 
 constexpr const char* lies = "lie on its side";
 
+TEST_F(Doubts, AModelInMillimetresIsTold) {
+  write_town("town.obj", false);
+  const std::string what = "higher than any house";
+  EXPECT_FALSE(warns(study("files: [town.obj]"), what));
+  EXPECT_TRUE(warns(study("files: [{file: town.obj, unit_m: 1000}]"), "house_3 is 8000 m high"));
+  EXPECT_FALSE(warns(study("files: [{file: town.obj, unit_m: 100}]"), what));
+}
+
 TEST_F(Doubts, SeeATownThatLiesOnItsSide) {
   write_town("up_z.obj", false);
   write_town("up_y.obj", true);

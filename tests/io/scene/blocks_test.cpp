@@ -121,6 +121,25 @@ TEST(SceneBlocks, LowThingsAreLand) {
   EXPECT_EQ(blocks(low, land, {}, files).object_names.size(), 2u);
 }
 
+TEST(SceneBlocks, ASurfaceBelowTheTerrainIsTold) {
+  const auto pit = [](std::size_t c, std::size_t r) {
+    return land(c, r) - (c == 2 && r == 2 ? 1.9 : 0);
+  };
+  EXPECT_TRUE(blocks(pit, land).warnings.empty());
+  const auto swapped = blocks(land, houses);
+  ASSERT_EQ(swapped.warnings.size(), 1u);
+  EXPECT_NE(swapped.warnings[0].find("5 cells have a surface that lies 2 m or more below"),
+            std::string::npos);
+  EXPECT_EQ(swapped.object_names.size(), 1u);
+}
+
+TEST(SceneBlocks, HeightsOfCrownsAboveTheSeaAreTold) {
+  for (const double foot : {0.0, 300.0}) {
+    const auto crown = [&](std::size_t c, std::size_t r) { return c == 4 && r < 2 ? foot + 9 : 0; };
+    EXPECT_EQ(blocks(houses, land, crown).warnings.size(), foot > 0 ? 1u : 0u);
+  }
+}
+
 TEST(SceneBlocks, MissingCellsAreLeftOut) {
   const auto surface = [](std::size_t c, std::size_t r) {
     return c == 1 && r == 1 ? -9999 : houses(c, r);

@@ -389,12 +389,17 @@ TEST(ScenePly, SinglePrecisionFarFromTheOriginIsTold) {
     for (const char* axis : {"x", "y", "z"}) text += "property " + type + " " + axis + "\n";
     text += "element face 1\nproperty list uchar int vertex_indices\nend_header\n691000.5" + end +
             "691010.25" + end + "691000.5 9 0\n3 0 1 2\n";
+    const auto model = read_text("far.ply", text);
     std::string notes;
-    for (const auto& line : read_text("far.ply", text).notes) notes += line;
+    for (const auto& line : model.notes) notes += line;
+    for (const auto& line : model.warnings) notes += "warning " + line;
     return notes;
   };
-  EXPECT_NE(notes_of("float", "5335000.5").find("in single precision: places are rounded to 0.5 m"),
-            std::string::npos);
+  const std::string far = notes_of("float", "5335000.5");
+  EXPECT_NE(far.find("warning "), std::string::npos);
+  EXPECT_NE(far.find("in single precision: places are rounded to 0.5 m"), std::string::npos);
+  EXPECT_EQ(notes_of("float", "9.5").find("warning"), std::string::npos);
+  EXPECT_NE(notes_of("float", "9.5").find("rounded to 0.062 m"), std::string::npos);
   EXPECT_EQ(notes_of("double", "5335000.5").find("single"), std::string::npos);
 }
 
