@@ -63,6 +63,7 @@ std::optional<double> LitArea::share(const ViewPolygon& polygon,
   if (shades.size() > most_shades) return {};
   const double area = polygon.area();
   negligible_ = least_share * area;
+  parts_left_ = most_parts;
   auto lit = lit_together(polygon, shades);
   if (!lit && are_sparse(shades, area)) lit = lit_of_halves(polygon, shades, 0);
   if (!lit) return {};
@@ -73,7 +74,15 @@ std::optional<double> LitArea::share(const ViewPolygon& polygon,
 bool LitArea::parts(const ViewPolygon& polygon, Shades shades, std::vector<ViewPolygon>& lit) {
   lit.clear();
   negligible_ = least_share * polygon.area();
+  parts_left_ = most_parts;
   return add_parts(polygon, shades, 0, lit);
+}
+
+bool LitArea::may_halve(const ViewPolygon& polygon, std::size_t halvings, ViewPolygon& first,
+                        ViewPolygon& second) {
+  if (halvings == most_halvings || parts_left_ < 2) return false;
+  parts_left_ -= 2;
+  return halve(polygon, first, second);
 }
 
 bool LitArea::add_parts(const ViewPolygon& polygon, Shades shades, std::size_t halvings,
@@ -89,7 +98,7 @@ bool LitArea::add_parts(const ViewPolygon& polygon, Shades shades, std::size_t h
     }
   }
   ViewPolygon first, second;
-  if (halvings == most_halvings || !halve(polygon, first, second)) return false;
+  if (!may_halve(polygon, halvings, first, second)) return false;
   for (const ViewPolygon& half : {first, second}) {
     keep_near(half, shades, of_half_[halvings]);
     if (!add_parts(half, of_half_[halvings], halvings + 1, lit)) return false;
@@ -100,7 +109,7 @@ bool LitArea::add_parts(const ViewPolygon& polygon, Shades shades, std::size_t h
 std::optional<double> LitArea::lit_of_halves(const ViewPolygon& polygon, Shades shades,
                                              std::size_t halvings) {
   ViewPolygon first, second;
-  if (halvings == most_halvings || !halve(polygon, first, second)) return {};
+  if (!may_halve(polygon, halvings, first, second)) return {};
   double sum = 0;
   for (const ViewPolygon& half : {first, second}) {
     auto& own = of_half_[halvings];

@@ -49,9 +49,14 @@ class LitArea {
   bool take_away(const ViewPolygon& shade);
   bool split(const ViewPolygon& piece, const ViewPolygon& shade);
 
-  double negligible_ = 0;  ///< area of what is rounding
+  /// Halves a polygon, unless it has been halved too often or too many parts were looked at.
+  bool may_halve(const ViewPolygon& polygon, std::size_t halvings, ViewPolygon& first,
+                 ViewPolygon& second);
+
+  double negligible_ = 0;       ///< area of what is rounding
+  std::size_t parts_left_ = 0;  ///< that may be looked at
   std::vector<ViewPolygon> left_, next_;
-  static constexpr std::size_t most_halvings = 5;
+  static constexpr std::size_t most_halvings = 12, most_parts = 64;
   std::array<std::vector<const ViewPolygon*>, most_halvings> of_half_;  ///< by halvings before it
 };
 

@@ -124,6 +124,13 @@ TEST(LitArea, HalvesWhatManyThinShadesCut) {
               rounding);
 }
 
+/// A heap of houses in a corner of a wide ground: none of a few samples need fall there.
+TEST(LitArea, HalvesTowardsWhatLiesInACorner) {
+  std::vector<ViewPolygon> heap;
+  for (int i = 0; i < 40; ++i) heap.push_back(rectangle(1 + 0.1 * i, 1, 1.2 + 0.1 * i, 3));
+  EXPECT_NEAR(*share(rectangle(0, 0, 100, 80), heap), 1 - (3.9 + 0.2) * 2 / (100.0 * 80), rounding);
+}
+
 /// More pieces than anybody counts.
 TEST(LitArea, GivesUpOnTooManyPieces) {
   EXPECT_FALSE(share(rectangle(0, 0, 1, 1), crossing_slits(14, 0.02)).has_value());  // not thin
