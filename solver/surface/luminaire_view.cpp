@@ -18,6 +18,7 @@ namespace {
 
 /// Wider ones are no lobes, and their pyramids hardly less than a half space.
 constexpr double widest_cone = 60 * radians_per_degree;
+constexpr double angle_rounding = 1e-9;
 /// Each step down the intensity falls to a quarter, five times: to a thousandth.
 constexpr double step_down = 0.25;
 constexpr int intensity_steps = 5;
@@ -92,7 +93,7 @@ class Lobe {
  public:
   Lobe(const std::vector<WebCell>& cells, Vec3 axis, double peak) : axis_(axis), peak_(peak) {
     for (const WebCell& cell : cells)
-      if (const auto reach = cell.reach(axis); reach.least < widest_cone)
+      if (const auto reach = cell.reach(axis); reach.least <= widest_cone * (1 + angle_rounding))
         near_.push_back({cell.largest, reach.largest});
   }
 
@@ -110,9 +111,8 @@ class Lobe {
     double level = peak_;
     for (int step = 0; step < intensity_steps; ++step) {
       const double next = level * step_down;
-      constexpr double rounding = 1e-9;
-      const double edge = angle(next) * (1 + rounding);
-      if (edge > widest_cone * (1 + rounding)) break;
+      const double edge = angle(next) * (1 + angle_rounding);
+      if (edge > widest_cone * (1 + angle_rounding)) break;
       if (!cones.empty() && edge < next_cone * cones.back().angle) {
         cones.back().angle = edge;
         cones.back().intensity += level - next;
