@@ -97,6 +97,16 @@ std::vector<ObjectExtent> extents_of(const Mesh& mesh) {
   return extents;
 }
 
+ObjectExtent extent_of_all(const std::vector<ObjectExtent>& extents) {
+  ObjectExtent all;
+  for (const auto& extent : extents) {
+    if (extent.is_empty()) continue;
+    include(all.box, extent.box.low);
+    include(all.box, extent.box.high);
+  }
+  return all;
+}
+
 PolygonModel without_objects(const PolygonModel& model, const ChosenObjects& chosen) {
   SUNLOAD_EXPECT(chosen.size() == model.object_names.size(), "one flag per object");
   PolygonModel rest;

@@ -54,6 +54,8 @@ double distance_in_plan(const ObjectExtent& extent, Point2 place);
 /// One per object; of a mesh in the metres of its files, its origin added.
 std::vector<ObjectExtent> extents_of(const PolygonModel& model);
 std::vector<ObjectExtent> extents_of(const Mesh& mesh);
+/// Of all of them together; empty where all are.
+ObjectExtent extent_of_all(const std::vector<ObjectExtent>& extents);
 
 /// The model without the chosen objects, their names and polygons. The others keep their order and
 /// every bit of their corners; what belonged to a chosen one belongs to nothing.

@@ -364,7 +364,7 @@ class SceneEditor {
   void apply(const AddTreePointsEdit& add) {
     const auto [points, notes] = read_tree_points(add.path, add.rules, crs(), study_.scene.unit_m);
     std::vector<NewTree> trees;
-    const ObjectExtent model = whole();
+    const ObjectExtent model = extent_of_all(extents_of(model_));
     for (const auto& [place, height_m, crown_m, name] : points)
       if (model.is_empty() || distance_in_plan(model, place) <= beside_model_m)
         trees.push_back({place,
@@ -406,13 +406,6 @@ class SceneEditor {
                {names.back(), "SolitaryVegetationObject", ""});
     }
     return names;
-  }
-
-  ObjectExtent whole() const {
-    std::vector<Vec3> corners;
-    for (const auto& extent : extents_of(model_))
-      if (!extent.is_empty()) corners.insert(corners.end(), {extent.box.low, extent.box.high});
-    return corners.empty() ? ObjectExtent{} : ObjectExtent{bounding_box(corners)};
   }
 
   /// Types are of cities alone: in plain files all are decided by shape, but for trees, whose

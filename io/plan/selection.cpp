@@ -72,11 +72,8 @@ std::vector<PlanArea> areas_in_scene(const AreasStudy& study, const std::string&
 void refuse_far(Point2 place, const std::vector<ObjectExtent>& extents, const std::string& subject,
                 const Where& where) {
   constexpr double surroundings_m = 1000;
-  std::vector<Vec3> corners;
-  for (const auto& extent : extents)
-    if (!extent.is_empty()) corners.insert(corners.end(), {extent.box.low, extent.box.high});
-  if (corners.empty()) return;
-  const ObjectExtent whole{bounding_box(corners)};
+  const ObjectExtent whole = extent_of_all(extents);
+  if (whole.is_empty()) return;
   const auto& [low, high] = whole.box;
   const double away = distance_in_plan(whole, place);
   if (away <= std::max(surroundings_m, std::hypot(high.x - low.x, high.y - low.y))) return;
